@@ -1,4 +1,4 @@
-// Every service is one call of what stands behind.
+// Forwards every service of `Ambassador` to the part that does it.
 #include "rti/ambassador.h"
 
 #include "rti/federate/ambassador_services.h"

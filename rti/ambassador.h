@@ -1,6 +1,5 @@
-// A federate's side of the RTI: services in, bytes out; bytes in, callbacks out. What they are
-// handed is in rti/types.h, callbacks are in rti/federate_ambassador.h, object models in
-// rti/fom/fom.h.
+// A federate's side of the RTI: services in, bytes out; bytes in, callbacks out. Their arguments
+// are in rti/types.h, callbacks in rti/federate_ambassador.h, object models in rti/fom/fom.h.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +25,14 @@ class Fom;
 /// standard's name of what is wrong.
 class Ambassador {
  public:
-  /// Of callbacks that wait to be evoked, or of what they would be made of [bytes].
+  /// Limit of the callbacks that wait to be evoked and of the messages held back for them [bytes].
   static constexpr std::size_t waiting_callbacks_max = 64u << 20;
 
   /// Both must outlive the ambassador.
   Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts = {},
              CallbackModel model = CallbackModel::immediate);
 
-  /// Federation management. These three ask the host, before the join; answered by
+  /// Federation management. These three ask the host before the join. The answers are
   /// `federation_execution_created`, `…_destroyed` and `report_federation_executions`. The new
   /// execution has this ambassador's object model, which the host must offer. Throw
   /// FederateAlreadyExecutionMember.
@@ -42,8 +41,9 @@ class Ambassador {
   void create_federation_execution(std::string_view federation, const Fom& model);
   void destroy_federation_execution(std::string_view federation);
   void list_federation_executions();
-  /// Asks for the counters of the management object model, answered by `report_management`: before
-  /// the join about every execution of the host, after it about one's own.
+  /// Asks for the counters of the management object model; `report_management` answers. Before the
+  /// join the counters are those of every execution of the host, after it those of the own
+  /// execution.
   void query_management();
   /// `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at
   /// once; objects and interactions only `joined`. Throws FederateAlreadyExecutionMember. After
@@ -53,22 +53,23 @@ class Ambassador {
   void resign();
   bool is_joined() const;
   FederateHandle federate() const;
-  /// `synchronization_point_registration_succeeded` or `…_failed` follows. Who is in `members` is
-  /// told and must achieve it; an empty set is all who are joined, those included who join before
-  /// it is reached. Who leaves is no longer waited for. Label at most 255 bytes, tag 1,024.
+  /// `synchronization_point_registration_succeeded` or `…_failed` follows. The federates in
+  /// `members` are notified and must achieve the point; an empty set means all that are joined, and
+  /// all that join before the point is reached. The RTI does not wait for a federate that has left.
+  /// Label at most 255 bytes, tag 1,024.
   void register_synchronization_point(std::string_view label, Bytes tag = {},
                                       std::span<const FederateHandle> members = {});
   /// Once for each announced label; throws SynchronizationPointLabelNotAnnounced. Without success
   /// the federate is among those that failed.
   void synchronization_point_achieved(std::string_view label, bool is_success = true);
-  /// Asks to be told who is there, who comes and who goes.
+  /// Asks for notices of all federates that are joined, that join and that leave.
   void watch_federates();
 
   /// Declaration management. A later call for the same class (and region) replaces the earlier one.
   void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
   void unpublish_object_class(ObjectClassHandle object_class);
-  /// Without a region: the default region, that is everything. Who subscribes passively hears as
-  /// much, but counts for no advisory.
+  /// Without a region the subscription has the default region, which overlaps everything. A passive
+  /// subscription receives as much as an active one but counts for no advisory.
   void subscribe_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes,
                                          RegionHandle region = {}, bool is_active = true);
   void unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region = {});
@@ -79,23 +80,24 @@ class Ambassador {
 
   /// Ownership management (clause 7). The privilege to delete an object is its attribute
   /// `privilege_to_delete_object`. The RTI decides and answers by callbacks; a federate loses an
-  /// attribute by its own word only. Throws `RtiException`: ObjectInstanceNotKnown,
+  /// attribute only by its own request or consent. Throws `RtiException`: ObjectInstanceNotKnown,
   /// AttributeNotDefined, AttributeNotOwned and those named. Tags have at most 1,024 bytes.
   /// Successive calls that differ in the object only travel as one block.
   void unconditional_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes);
-  /// Keeps them until somebody takes them, `request_divestiture_confirmation` says so and it is
-  /// confirmed. AttributeAlreadyBeingDivested.
+  /// Offers the attributes and keeps them until another federate wants them,
+  /// `request_divestiture_confirmation` has reported it and the federate has confirmed.
+  /// AttributeAlreadyBeingDivested.
   void negotiated_attribute_ownership_divestiture(ObjectHandle object, AttributeSet attributes,
                                                   Bytes tag = {});
-  /// From now on they are not owned; should whoever wanted them have gone meanwhile,
-  /// `attribute_ownership_kept` gives them back. AttributeDivestitureWasNotRequested,
+  /// The attributes are no longer owned from now on; if the federate that wanted them has left
+  /// meanwhile, `attribute_ownership_kept` gives them back. AttributeDivestitureWasNotRequested,
   /// NoAcquisitionPending.
   void confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
   void cancel_negotiated_attribute_ownership_divestiture(
       ObjectHandle object, AttributeSet attributes);  ///< AttributeDivestitureWasNotRequested
   void attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes);
-  /// What the standard returns comes by `attribute_ownership_divested` and
-  /// `attribute_ownership_kept`; until then they are not owned.
+  /// The result, which the standard returns at once, arrives by `attribute_ownership_divested` and
+  /// `attribute_ownership_kept`; until then the attributes are not owned.
   void attribute_ownership_divestiture_if_wanted(ObjectHandle object, AttributeSet attributes);
   /// ObjectClassNotPublished, AttributeNotPublished, FederateOwnsAttributes; the second also
   /// AttributeAlreadyBeingAcquired.
@@ -108,24 +110,26 @@ class Ambassador {
   /// Answered by `inform_attribute_ownership` or `attribute_is_not_owned`.
   void query_attribute_ownership(ObjectHandle object, AttributeHandle attribute);
   bool is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute);
-  /// What becomes of its objects should it be lost (10.4); at first cancel_then_delete_then_divest.
+  /// Sets what happens to the federate's objects if its connection is lost (10.4); the default is
+  /// cancel_then_delete_then_divest.
   void set_automatic_resign_directive(ResignAction action);
-  /// Resigns so. OwnershipAcquisitionPending, FederateOwnsAttributes if the action leaves any of
-  /// these.
+  /// Resigns with this action. Throws OwnershipAcquisitionPending or FederateOwnsAttributes if the
+  /// action leaves any of these.
   void resign(ResignAction action);
 
   /// Object management. The handle is usable at once; empty if the block is used up before the RTI
-  /// has given a further one, which it does once half is used (rti/wire/message.h). A name that was
-  /// not reserved is reserved by this; if it is not free, `object_instance_name_reservation_failed`
-  /// tells so and the object goes by its default name. IllegalName, ObjectInstanceNameInUse if that
-  /// is known here.
+  /// has given a further one, which it does once half is used (rti/wire/message.h). Registering
+  /// reserves a name that was not reserved; if the name is not free,
+  /// `object_instance_name_reservation_failed` follows and the object has its default name.
+  /// IllegalName, ObjectInstanceNameInUse if that is known here.
   ObjectHandle register_object_instance(ObjectClassHandle object_class, std::string_view name = {});
   void delete_object_instance(ObjectHandle object);
-  /// As if it had never been discovered: it will be when it next comes into scope.
-  /// FederateOwnsAttributes, OwnershipAcquisitionPending.
+  /// Forgets the object as if it had never been discovered; it is discovered again when it next
+  /// comes into scope. FederateOwnsAttributes, OwnershipAcquisitionPending.
   void local_delete_object_instance(ObjectHandle object);
-  /// Answered by `object_instance_name_reservation_succeeded` or `…_failed`, a set as one.
-  /// IllegalName, NameSetWasEmpty; a release that is none throws ObjectInstanceNameNotReserved.
+  /// `object_instance_name_reservation_succeeded` or `…_failed` answers, once for a whole set.
+  /// Throws IllegalName, NameSetWasEmpty, and ObjectInstanceNameNotReserved for the release of a
+  /// name that is not reserved.
   void reserve_object_instance_name(std::string_view name);
   void reserve_multiple_object_instance_names(std::span<const std::string_view> names);
   void release_object_instance_name(std::string_view name);
@@ -135,8 +139,8 @@ class Ambassador {
   void request_attribute_value_update(ObjectClassHandle object_class, AttributeSet attributes,
                                       Bytes tag = {});
   void request_attribute_value_update(ObjectHandle object, AttributeSet attributes, Bytes tag = {});
-  /// Confirmed by a callback, as what is asked for is answered by one (6.23 to 6.30).
-  /// AttributeNotOwned, InteractionClassNotPublished.
+  /// A callback confirms each change and answers each query (6.23 to 6.30). AttributeNotOwned,
+  /// InteractionClassNotPublished.
   void request_attribute_transportation_type_change(ObjectHandle object, AttributeSet attributes,
                                                     Transportation transportation);
   void query_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute);
@@ -148,19 +152,19 @@ class Ambassador {
   /// travel as one block.
   void update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
                                const Stamp& stamp);
-  /// To all who subscribe to the class, never back to the sender. At most 32 KiB.
+  /// Sends to all federates that subscribe to the class, never back to the sender. At most 32 KiB.
   void send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
                         const Stamp& stamp);
-  /// The same to one federate only, if it subscribes.
+  /// Sends to one federate only, if it subscribes.
   void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver,
                                  Bytes parameters, const Stamp& stamp);
 
-  /// Data distribution management (ambassador_regions.cpp); docs/rti.md, "Regions". What is set is
-  /// local; a commit takes effect at the RTI's next match. The same region may serve subscriptions
-  /// and updates; one that was never committed overlaps nothing. Without dimensions a region is
-  /// over X and Y [m], needs no such dimensions in the model, and holds for whole objects; the
-  /// services with `pairs` are the standard's: each attribute must have all dimensions of its
-  /// regions. Empty if all `region_max` regions are in use.
+  /// Data distribution management (ambassador_regions.cpp); docs/rti.md, "Regions". Setting a range
+  /// is local; a commit takes effect at the RTI's next match. The same region may serve
+  /// subscriptions and updates; one that was never committed overlaps nothing. Without dimensions a
+  /// region is over X and Y [m], needs no such dimensions in the model, and holds for whole
+  /// objects; the services with `pairs` are the standard's: each attribute must have all dimensions
+  /// of its regions. Empty if all `region_max` regions are in use.
   RegionHandle create_region();
   RegionHandle create_region(DimensionSet dimensions);
   void set_region(RegionHandle region, const im::Region& bounds);
@@ -181,7 +185,7 @@ class Ambassador {
   ObjectHandle register_object_instance_with_regions(ObjectClassHandle object_class,
                                                      std::span<const AttributeRegions> pairs,
                                                      std::string_view name = {});
-  /// Adds to what is subscribed to already.
+  /// Adds to the subscriptions that exist.
   void subscribe_object_class_attributes_with_regions(ObjectClassHandle object_class,
                                                       std::span<const AttributeRegions> pairs,
                                                       bool is_active = true);
@@ -192,7 +196,8 @@ class Ambassador {
                                                 bool is_active = true);
   void unsubscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
                                                   std::span<const RegionHandle> regions);
-  /// To all who subscribe to the class without a region, or with one that overlaps one of these.
+  /// Sends to all federates that subscribe to the class without a region, or with one that overlaps
+  /// one of these.
   void send_interaction_with_regions(InteractionClassHandle interaction_class, Bytes parameters,
                                      std::span<const RegionHandle> regions, const Stamp& stamp);
   /// Asks the owners of attributes whose regions overlap those of a pair, or that are of the
@@ -200,23 +205,23 @@ class Ambassador {
   void request_attribute_value_update_with_regions(ObjectClassHandle object_class,
                                                    std::span<const AttributeRegions> pairs);
 
-  /// Look-ups beyond those of the object model; NameNotFound. Federates are known from
-  /// `watch_federates`, and oneself.
+  /// Look-ups beyond those of the object model; they throw NameNotFound. The federates known are
+  /// those that `watch_federates` reported and this one.
   FederateHandle get_federate_handle(std::string_view name) const;
   const std::string& get_federate_name(FederateHandle federate) const;
-  /// Of objects that are known or own; ObjectInstanceNotKnown.
+  /// The object must be own or known, else ObjectInstanceNotKnown.
   ObjectHandle get_object_instance_handle(std::string_view name) const;
   std::string get_object_instance_name(ObjectHandle object) const;
   ObjectClassHandle get_known_object_class_handle(ObjectHandle object) const;
 
-  /// Callbacks. In the evoked model the federate is told nothing until it asks; these tell it the
-  /// oldest, or up to `count_max` in their order, and return whether more wait. In the immediate
-  /// model they do nothing. Who lets more than `waiting_callbacks_max` bytes wait loses its
-  /// connection. Throw CallNotAllowedFromWithinCallback.
+  /// Callbacks. In the evoked model callbacks wait until the federate asks for them; these deliver
+  /// the oldest, or up to `count_max` in their order, and return whether more wait. In the
+  /// immediate model they do nothing. A federate that lets more than `waiting_callbacks_max` bytes
+  /// wait loses its connection. Throw CallNotAllowedFromWithinCallback.
   bool evoke_callback();
   bool evoke_multiple_callbacks(std::size_t count_max = ~std::size_t{0});
-  /// From now on the federate is told nothing, in either model, until callbacks are enabled again:
-  /// in the immediate model all at once, within this call.
+  /// No callback is delivered, in either model, until callbacks are enabled again; in the immediate
+  /// model enabling delivers all that wait, within the call.
   void disable_callbacks();
   void enable_callbacks();
 
@@ -243,7 +248,7 @@ class Ambassador {
   const FederateClock& clock() const;
   /// The same as the services without a time, but in time-stamp order where that is what the object
   /// model or `change_..._order_type` says and the federate regulates: only then is there a handle.
-  /// What of an update goes in receive order goes at once, stamped with that time.
+  /// The part of an update that has receive order is sent at once, stamped with that time.
   RetractionHandle update_attribute_values(ObjectHandle object, AttributeSet attributes,
                                            Bytes values, LogicalTime time, std::uint64_t tag = 0);
   RetractionHandle send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
@@ -262,29 +267,29 @@ class Ambassador {
   /// Bytes from the RTI, cut anywhere. False after a protocol error, which `connection_lost` has
   /// explained: close the connection.
   bool receive(Bytes bytes);
-  /// A datagram of the RTI, whole; in any order, doubled or not at all. One that makes no sense is
-  /// counted and otherwise ignored.
+  /// A whole datagram of the RTI; datagrams may arrive in any order, twice or never. A malformed
+  /// one is counted and otherwise ignored.
   void receive_datagram(Bytes datagram);
-  /// There is a way for datagrams: from now on the order of frames matters too, for an older
-  /// datagram may come after them. `size_max`: the most bytes that one may have now; 0 while there
-  /// is none. Best-effort updates go by it, unless this federate keeps time or leaves objects
-  /// behind.
+  /// Opens or closes a channel for datagrams; once one has opened, frames are numbered too, for an
+  /// older datagram may come after them. `size_max` is the most bytes that a datagram may have now,
+  /// 0 while there is no channel. Best-effort updates use the channel unless this federate
+  /// regulates time or leaves objects behind.
   void expect_datagrams(std::size_t size_max);
-  /// The datagrams that must go to the RTI, behind `outgoing` or beside it, and that they have
-  /// gone. `clear_outgoing` says no word of them. Valid until then.
+  /// The datagrams that must be sent to the RTI, after `outgoing` or beside it, valid until
+  /// `clear_outgoing_datagrams` says that they have been sent. `clear_outgoing` leaves them alone.
   std::span<const Datagram> outgoing_datagrams();
   void clear_outgoing_datagrams();
-  /// What must go to the RTI, and that it has gone.
+  /// The bytes that must be sent to the RTI, and the notice that they have been sent.
   Bytes outgoing() const;
   void clear_outgoing();
-  /// `now` [s] never decreases; the origin is free. Says that we live when idle, notices a silent
-  /// RTI.
+  /// `now` [s] never decreases; the origin is free. Sends a heartbeat when idle, and notices a
+  /// silent RTI.
   void advance_clock(double now);
   /// The connection is gone: `connection_lost` follows unless the federate resigned or was refused.
   void disconnected(std::string_view why);
 
   const AmbassadorCounters& counters() const;
-  /// Of all that stands behind it.
+  /// Memory of all parts of the ambassador [bytes].
   std::size_t memory_bytes() const;
 
   /// Names and handles (clause 10), as the object model alone answers: by name they throw
@@ -318,8 +323,8 @@ class Ambassador {
   DimensionSet get_available_dimensions_for_interaction_class(
       InteractionClassHandle interaction_class) const;
 
-  /// 10.27 to 10.34. All are on at first but that of attribute relevance; what is so already throws
-  /// ObjectClassRelevanceAdvisorySwitchIsOn and its kin.
+  /// 10.27 to 10.34. All are on at first but that of attribute relevance; setting a switch to the
+  /// value that it has throws ObjectClassRelevanceAdvisorySwitchIsOn or its like.
   void enable_object_class_relevance_advisory_switch();
   void disable_object_class_relevance_advisory_switch();
   void enable_attribute_relevance_advisory_switch();

@@ -1,4 +1,4 @@
-// Names, handles and advisory switches: each is one call of what stands behind.
+// Forwards the look-ups of names and handles and the advisory switches of `Ambassador`.
 #include "rti/ambassador.h"
 #include "rti/federate/ambassador_services.h"
 

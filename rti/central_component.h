@@ -1,5 +1,5 @@
-// What a host of transports talks to: the RTI's central component, whether it holds one federation
-// execution or many.
+// The interface through which a host of transports drives the RTI's central component, whether that
+// holds one federation execution or many.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,22 @@
 
 namespace rink::rti {
 
-/// Where `flush` leaves what must go out.
+/// The sink into which `flush` puts what must be sent.
 class Outlet {
  public:
   virtual ~Outlet() = default;
   /// Everything for one destination, at most once per flush. The parts are valid during the call.
   virtual void send(ConnectionId connection, std::span<const Bytes> parts) = 0;
-  /// Bytes that its sends have left to wait because it doesn't take them.
+  /// Bytes sent to this destination that wait because it does not take them.
   virtual std::size_t waiting_bytes(ConnectionId) const { return 0; }
-  /// The most bytes that a datagram to this destination may have now; 0 where there is no way for
-  /// them.
+  /// The most bytes that a datagram to this destination may have now; 0 where it has no channel for
+  /// datagrams.
   virtual std::size_t datagram_max(ConnectionId) const { return 0; }
-  /// At most once per flush and destination, before its `send`, beside one more to ask if a way is
-  /// open again. Valid during the call.
+  /// At most once per flush and destination, before its `send`; one more datagram may probe whether
+  /// a channel is open again. The bytes are valid during the call.
   virtual void send_datagrams(ConnectionId, std::span<const Datagram>) {}
-  /// Close it once the bytes sent before are on their way; the central component has forgotten it
-  /// already.
+  /// Closes the connection once the bytes sent before are on their way; the central component has
+  /// forgotten it already.
   virtual void drop(ConnectionId connection, std::string_view why) = 0;
 };
 
@@ -37,7 +37,7 @@ class CentralComponent {
   /// Connection ids may be any numbers that are not connected now; small ones are dense.
   virtual void connect(ConnectionId connection) = 0;
   virtual void receive(ConnectionId connection, Bytes bytes) = 0;
-  /// A datagram of a federate, whole; in any order, doubled or not at all.
+  /// A whole datagram of a federate; datagrams may arrive in any order, twice or never.
   virtual void receive_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
   virtual void disconnect(ConnectionId connection, std::string_view why) = 0;
   /// `now` [s] never decreases.

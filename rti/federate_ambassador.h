@@ -1,4 +1,4 @@
-// The callbacks by which the RTI tells a federate what happened.
+// The callbacks by which the RTI notifies a federate.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +23,11 @@ class FederateAmbassador {
 
   virtual void joined(FederateHandle) {}
   virtual void join_refused(Refusal, std::string_view /*why*/) {}
-  /// The RTI is silent or gone, or sent what nobody understands; nothing more will arrive.
+  /// The RTI is silent or gone, or sent a malformed message; nothing more will arrive.
   virtual void connection_lost(std::string_view /*why*/) {}
 
-  /// Federation management: what became of `create_federation_execution` and
-  /// `destroy_federation_execution`; `HlaError::none` if it was done.
+  /// Federation management: the result of `create_federation_execution` and
+  /// `destroy_federation_execution`; `HlaError::none` is success.
   virtual void federation_execution_created(std::string_view /*federation*/, HlaError) {}
   virtual void federation_execution_destroyed(std::string_view /*federation*/, HlaError) {}
   /// Answers `query_management`.
@@ -38,30 +38,30 @@ class FederateAmbassador {
   virtual void synchronization_point_registration_failed(std::string_view /*label*/,
                                                          SynchronizationFailure) {}
   virtual void announce_synchronization_point(std::string_view /*label*/, Bytes /*tag*/) {}
-  /// `failed` are those of the set who said that they could not achieve it.
+  /// `failed` are the federates of the set that reported that they could not achieve it.
   virtual void federation_synchronized(std::string_view /*label*/,
                                        std::span<const FederateHandle> /*failed*/) {}
 
-  /// Told after `Ambassador::watch_federates`: first of all who are there (the watcher too), then
-  /// of those who come and go.
+  /// Follows `Ambassador::watch_federates`: first once for each federate that is joined (the
+  /// watcher too), then whenever one joins or leaves.
   virtual void federate_joined(FederateHandle, std::string_view /*name*/,
                                std::string_view /*type*/) {}
   virtual void federate_resigned(FederateHandle, std::string_view /*name*/,
                                  std::string_view /*type*/, ResignReason) {}
 
-  /// Declaration management: somebody subscribes actively to what this federate publishes of the
-  /// class, or nobody does any more.
+  /// Declaration management: another federate subscribes actively to what this one publishes of the
+  /// class, or none does any more.
   virtual void start_registration_for_object_class(ObjectClassHandle) {}
   virtual void stop_registration_for_object_class(ObjectClassHandle) {}
   virtual void turn_interactions_on(InteractionClassHandle) {}
   virtual void turn_interactions_off(InteractionClassHandle) {}
-  /// Told if the switch for attribute relevance is on: these attributes of an own object are in the
-  /// scope of some active subscriber, or of none any more.
+  /// Called if the switch for attribute relevance is on: these attributes of an own object are in
+  /// the scope of some active subscriber, or of none any more.
   virtual void turn_updates_on_for_object_instance(ObjectHandle, AttributeSet) {}
   virtual void turn_updates_off_for_object_instance(ObjectHandle, AttributeSet) {}
 
-  /// Names of objects. A failure also tells that an object which was registered by a name that is
-  /// not free goes by its default name.
+  /// Names of objects. A failure also follows a registration under a name that is not free: the
+  /// object has its default name.
   virtual void object_instance_name_reservation_succeeded(std::string_view /*name*/) {}
   virtual void object_instance_name_reservation_failed(std::string_view /*name*/) {}
   virtual void multiple_object_instance_name_reservation_succeeded(
@@ -87,29 +87,30 @@ class FederateAmbassador {
                                         const Stamp&) {}
   virtual void attributes_in_scope(ObjectHandle) {}
   virtual void attributes_out_of_scope(ObjectHandle) {}
-  /// Somebody asks for these attributes of an own object.
+  /// Another federate requests these attributes of an own object.
   virtual void provide_attribute_value_update(ObjectHandle, AttributeSet,
                                               Bytes /*tag of the request*/) {}
   virtual void remove_object_instance(ObjectHandle) {}
 
-  /// Ownership management. These attributes look for an owner: acquire them, if available, or let
-  /// them be.
+  /// Ownership management. These attributes have no owner or are offered by theirs: the federate
+  /// may acquire them if available.
   virtual void request_attribute_ownership_assumption(ObjectHandle, AttributeSet,
                                                       Bytes /*tag of the offer*/) {}
-  /// Somebody takes what this federate offered: it may confirm.
+  /// Another federate wants what this one offered: it may confirm.
   virtual void request_divestiture_confirmation(ObjectHandle, AttributeSet) {}
   virtual void attribute_ownership_acquisition_notification(ObjectHandle, AttributeSet,
                                                             Bytes /*tag of the confirmation*/) {}
   virtual void attribute_ownership_unavailable(ObjectHandle, AttributeSet) {}
-  /// Somebody wants what this federate owns: it may divest, offer or deny, or let it wait.
+  /// Another federate wants what this one owns: it may divest, offer or deny, or let the other
+  /// wait.
   virtual void request_attribute_ownership_release(ObjectHandle, AttributeSet,
                                                    Bytes /*tag of the acquisition*/) {}
   virtual void confirm_attribute_ownership_acquisition_cancellation(ObjectHandle, AttributeSet) {}
   virtual void inform_attribute_ownership(ObjectHandle, AttributeHandle, FederateHandle) {}
   virtual void attribute_is_not_owned(ObjectHandle, AttributeHandle) {}
-  /// Beyond the standard, where services don't wait: which attributes a divestiture if wanted gave
-  /// away; and which it, or a confirmation that came after the other had lost interest, left here:
-  /// they are owned again.
+  /// Beyond the standard, since services here do not wait for an answer: which attributes a
+  /// divestiture if wanted gave away, and which attributes stayed, and are owned again, after such
+  /// a divestiture or after a confirmation that came when the other federate no longer wanted them.
   virtual void attribute_ownership_divested(ObjectHandle, AttributeSet) {}
   virtual void attribute_ownership_kept(ObjectHandle, AttributeSet) {}
 
@@ -121,11 +122,12 @@ class FederateAmbassador {
   virtual void time_regulation_enabled(LogicalTime) {}
   virtual void time_constrained_enabled(LogicalTime) {}
   virtual void time_advance_grant(LogicalTime) {}
-  /// The sender takes back what we have received already.
+  /// The sender retracts a message that this federate has received already.
   virtual void request_retraction(const RetractionHandle&) {}
   /// The answer to `query_time_bounds`: GALT and LITS [s], infinite where nobody sets a bound.
   virtual void time_bounds(double /*galt*/, double /*lits*/) {}
-  /// What was sent in time-stamp order. Who does not tell it apart gets it as any other.
+  /// Messages that were sent in time-stamp order. A federate that does not override these receives
+  /// them by the callbacks without a time.
   virtual void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes,
                                                   Bytes values, const TimedStamp& timed) {
     reflect_attribute_values(object, attributes, values, timed.stamp);

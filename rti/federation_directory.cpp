@@ -1,4 +1,4 @@
-// Who asks for which federation execution, and the way there.
+// Routes each connection to the federation execution that it asks for.
 #include "rti/federation_directory.h"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ HlaError FederationDirectory::destroy(std::string_view federation) {
                                   [&](const auto& each) { return each->name() == federation; });
   if (place == executions_.end()) return HlaError::federation_execution_does_not_exist;
   if ((*place)->federate_count() > 0) return HlaError::federates_currently_joined;
-  destroyed_.push_back(std::move(*place));  // its last words go out with the next flush
+  destroyed_.push_back(std::move(*place));  // the last bytes to it go out with the next flush
   executions_.erase(place);
   return HlaError::none;
 }
@@ -99,8 +99,8 @@ void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
   if (!handle_waiting(id)) drop(id);
 }
 
-/// False if a frame broke a rule. A batch of bytes is bounded by its transport, and no frame that
-/// is not whole is kept beyond what a stranger may send.
+/// False if a frame broke a rule. The transport bounds a batch of bytes, and an incomplete frame is
+/// kept only up to the length that an unjoined connection may send.
 bool FederationDirectory::handle_waiting(ConnectionId id) {
   Connection& connection = connections_[id];
   std::size_t taken = 0;
@@ -111,7 +111,7 @@ bool FederationDirectory::handle_waiting(ConnectionId id) {
     if (size == 0 || size > frame_max_to_join) return false;
     if (rest.size() < frame_header_size + size) break;
     const Bytes frame = rest.subspan(frame_header_size, size);
-    connection.has_spoken = true;  // by a whole frame: one byte now and then says nothing
+    connection.has_spoken = true;  // by a whole frame: a byte now and then is no sign of life
     const bool is_join = static_cast<MessageKind>(frame[0]) == MessageKind::join;
     if (is_join ? !lead(id, frame) : !handle_frame(id, frame)) return false;
     if (!is_join) taken += frame_header_size + size;
@@ -162,7 +162,7 @@ bool FederationDirectory::handle_frame(ConnectionId id, Bytes frame) {
   return true;
 }
 
-/// From now on the connection is its execution's, the message of the join included.
+/// Hands the connection over to its execution, with the message that asks to join.
 bool FederationDirectory::lead(ConnectionId id, Bytes frame) {
   Reader reader(frame.subspan(1));
   JoinMessage message;

@@ -1,5 +1,5 @@
-// Several federation executions in one central component: created, listed and destroyed by name,
-// each connection led to the one that it joins.
+// Several federation executions in one central component: they are created, listed and destroyed by
+// name, and each connection is routed to the one that it joins.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ struct DirectorySettings {
 };
 
 /// A host of one fixed federation uses a `FederationExecution` instead and pays nothing for this.
-/// Here a federate pays one look-up per batch of bytes. Executions know nothing of each other:
-/// federates of one name, their handles and objects may be in several.
+/// Here a federate pays one look-up per batch of bytes. Executions are independent of each other:
+/// several may have federates, handles and objects of equal names.
 class FederationDirectory final : public CentralComponent {
  public:
   explicit FederationDirectory(DirectorySettings settings = {});
@@ -29,7 +29,7 @@ class FederationDirectory final : public CentralComponent {
   /// Executions may be created with this object model from now on; it must outlive the directory. A
   /// federate names it by its hash.
   void offer(const Fom& fom);
-  /// What federates ask for, also to be called by the host itself.
+  /// The services that federates request; the host itself may call them too.
   /// FederationExecutionAlreadyExists, CouldNotOpenFDD if no such model is offered, IllegalName for
   /// an empty name, RTIinternalError beyond `execution_max`.
   HlaError create(std::string_view federation, std::uint64_t fom_hash);
@@ -48,7 +48,7 @@ class FederationDirectory final : public CentralComponent {
   void match() override;
   void flush(Outlet& outlet) override;
 
-  /// Connections dropped here, before they were led to any execution.
+  /// Connections dropped here, before they were routed to any execution.
   std::uint64_t drops() const { return drops_; }
 
  private:
@@ -56,7 +56,8 @@ class FederationDirectory final : public CentralComponent {
   struct Connection {
     bool is_connected = false, has_spoken = false;
     FederationExecution* execution = nullptr;  ///< null until it asks to join one
-    std::vector<std::byte> waiting;            ///< what came before that and is no whole frame
+    std::vector<std::byte> waiting;            ///< bytes received before that which are no whole
+                                               ///< frame
     double last_received = 0.0;
     PreJoinLimits limits;
   };

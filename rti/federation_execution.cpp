@@ -1,4 +1,4 @@
-// The federation execution's face; its parts do the work.
+// Forwards each call of `FederationExecution` to its parts.
 #include "rti/federation_execution.h"
 
 #include <stdexcept>

@@ -24,16 +24,16 @@ namespace rink::rti {
 
 class FederationParts;
 
-/// Where a federate subscribes, as it last committed it.
+/// A region that a federate subscribes with, as it last committed it.
 struct SubscribedRegion {
   FederateHandle federate;
   im::Region bounds;
 };
 
 /// Owns federates, declarations, objects with their latest values, synchronisation points and
-/// regions. A tick is: any number of `receive`, then `match`, which alone decides who hears of
+/// regions. A tick is: any number of `receive`, then `match`, which alone decides who receives
 /// what, then `flush`. Connections that break a rule are forgotten at once, counted by reason, and
-/// handed to `Outlet::drop` by the next flush; nobody else notices more than a lost federate.
+/// passed to `Outlet::drop` by the next flush; the others see no more than a lost federate.
 class FederationExecution final : public CentralComponent {
  public:
   /// `fom` must outlive it. Throws std::invalid_argument naming the known filters if there is none
@@ -49,16 +49,16 @@ class FederationExecution final : public CentralComponent {
   void receive(ConnectionId connection, Bytes bytes) override;
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
-  /// `now` [s] never decreases. Drops who has been silent for too long.
+  /// `now` [s] never decreases. Drops connections that have been silent for too long.
   void advance_clock(double now) override;
-  /// What the host of a federation knows of it and the filter may use (docs/rti.md, "What a filter
-  /// knows beside regions"): who is of which team, whose he is and what is always relevant. What
-  /// has the number of a federate's owner is told to it whatever the filter says. Who is not there
-  /// is ignored; a role ends with who has it.
+  /// What the host of a federation knows and the filter may use (docs/rti.md, "What a filter knows
+  /// beside regions"): teams, owners, and which objects are always relevant. A federate receives
+  /// every object that has its owner's number, whatever the filter decides. A role of something
+  /// that does not exist is ignored; a role ends with its bearer.
   void set_object_role(ObjectHandle object, const im::Role& role);
   void set_federate_role(FederateHandle federate, const im::Role& role);
-  /// Where it looks, how it moves on from the region that it handed in last, and which time it is
-  /// [s]: finite, and time never goes back.
+  /// The direction in which a federate looks, the motion of an object since it last committed its
+  /// region, and the time [s]: all are finite, and time never goes back.
   void set_federate_heading(FederateHandle federate, const im::Heading& heading);
   void set_object_flight(ObjectHandle object, const im::Flight& flight);
   void set_time(double now);
@@ -79,8 +79,8 @@ class FederationExecution final : public CentralComponent {
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   const FederationCounters& counters() const;
   const BaselineCounters& baseline_counters() const;
-  /// Worked out now, objects and scopes counted one by one; with the outlet's queues if there is
-  /// one.
+  /// Computed on the call, by counting objects and scopes one by one; includes the outlet's queues
+  /// if there is an outlet.
   FederationReport report(const Outlet* outlet = nullptr) const;
   const im::Filter& filter() const;
   const DataDistribution& distribution() const;

@@ -1,4 +1,4 @@
-// Reads the federation file; every complaint names file, line and key.
+// Reads the federation file; every error names file, line and key.
 #include "rti/federation_file.h"
 
 #include <toml++/toml.h>
@@ -12,7 +12,7 @@ namespace rink::rti {
 
 namespace {
 
-/// Complains with the line of what it reads.
+/// Makes errors that name the line of what is being read.
 class FederationReader {
  public:
   explicit FederationReader(const std::string& source) : source_(source) {}
@@ -40,7 +40,7 @@ class FederationReader {
     return *value;
   }
 
-  /// Whoever is to be asked needs an address; a node that asks may have one.
+  /// The node of the RTI needs an address; the others may have one.
   Node node(const toml::table& table, const std::string& name, bool is_asked) const {
     if (!is_asked && !table.contains("address") && !table.contains("port")) return {name};
     const toml::node* port = table.get("port");

@@ -1,4 +1,4 @@
-// The parts of a federation execution that a user may replace by parts of their own.
+// The parts of a federation execution that a user may replace.
 #pragma once
 
 #include <functional>
@@ -13,24 +13,24 @@
 
 namespace rink::rti {
 
-/// How each part is made; empty: the one that comes with the RTI. A maker is called once, by the
-/// execution's constructor if nothing else is said, and what it is handed outlives what it makes.
+/// Functions that make each part; an empty one stands for the RTI's own part. Each is called once,
+/// by the execution's constructor unless stated otherwise, and its arguments outlive what it makes.
 struct FederationServices {
-  /// Who receives what. `filter` is the one that the settings name.
+  /// Decides who receives what. `filter` is the one that the settings name.
   std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects,
                                                   const Ownership& ownership,
                                                   std::unique_ptr<im::Filter> filter)>
       data_distribution;
 
-  /// Whom an interaction reaches of those who subscribe to its class (rti/groups/member_lists.h).
+  /// Decides which subscribers of its class an interaction reaches (rti/groups/member_lists.h).
   std::function<std::unique_ptr<GroupCommunication>()> group_communication;
 
-  /// How updates are collected, and who is told the newest state instead
+  /// Collects updates and decides who receives the newest state instead
   /// (rti/buffering/newest_state.h).
   std::function<std::unique_ptr<Buffering>()> buffering;
 
-  /// When who may advance. Made when the first federate asks for it, so a federation without has
-  /// none.
+  /// Decides when each federate may advance. Made when the first federate asks for it, so a
+  /// federation without time management has none.
   std::function<std::unique_ptr<TimeManagement>()> time_management;
 };
 

@@ -1,4 +1,4 @@
-// What a federation execution is to be: its name, its filter, and how much it takes from whom.
+// Settings of a federation execution: its name, its filter, and the limits of what it accepts.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct FederationSettings {
   std::size_t name_bytes_per_federate_max = 8u
                                             << 20;  ///< of all the objects that it ever registers
   std::size_t interaction_bytes_per_flush_max =
-      512u << 10;  ///< that one federate says to others between two flushes, 16 for each and its
+      512u << 10;  ///< that one federate sends to others between two flushes, 16 for each and its
                    ///< parameters
   std::size_t entry_bytes_per_flush_max =
       512u << 10;  ///< to one federate: of objects that came into scope, and their states; less

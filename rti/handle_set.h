@@ -10,7 +10,7 @@
 
 namespace rink::rti {
 
-/// Bit k stands for the handle whose value is k; no handle is as great as the word has bits.
+/// Bit k stands for the handle whose value is k; every handle is below the number of bits.
 template <class Handle, class Word>
 struct HandleSet {
   static constexpr std::uint32_t capacity = std::numeric_limits<Word>::digits;
@@ -32,7 +32,7 @@ struct HandleSet {
   bool is_empty() const { return bits == 0; }
   std::size_t count() const { return static_cast<std::size_t>(std::popcount(bits)); }
   HandleSet without(HandleSet other) const { return HandleSet(bits & ~other.bits); }
-  /// Where `handle` stands among all members in ascending order.
+  /// The rank of `handle` among all members in ascending order.
   std::size_t rank(Handle handle) const {
     assert(contains(handle));
     return static_cast<std::size_t>(std::popcount(bits & ((Word{1} << handle.value) - 1)));

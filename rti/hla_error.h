@@ -1,5 +1,5 @@
-// The errors of IEEE 1516.1-2010 by name: what a service that can't be done says, at the federate's
-// side and at the RTI's.
+// The errors of IEEE 1516.1-2010 by name, which services report at the federate's side and at the
+// RTI's.
 #pragma once
 
 #include <cstdint>
@@ -84,8 +84,8 @@ enum class HlaError : std::uint8_t {
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);
 
-/// Thrown by services of the federate's side that can't be done, before anything is sent or
-/// changed; `what` names the error, the thing and what was expected.
+/// Thrown by a service of the federate's side that is refused, before anything is sent or changed;
+/// `what` names the error, the thing and what was expected.
 class RtiException : public std::logic_error {
  public:
   RtiException(HlaError error, std::string_view about)

@@ -1,4 +1,4 @@
-// Why a federate was not let in, and why it is no longer there.
+// Why a federate was refused, and how a federate left.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ enum class Refusal : std::uint8_t {
   not_admitted,       ///< the RTI asks for a shared key, and got no proof of it
   not_listed,         ///< the federation's members are listed, and the federate is none of them
 };
-/// A sentence that tells a user what is wrong, or "unknown refusal".
+/// A sentence for a user about what is wrong, or "unknown refusal".
 const char* to_string(Refusal refusal);
 /// The standard's name for it (4.9), to switch on: InconsistentFDD,
 /// FederationExecutionDoesNotExist, FederateNameAlreadyInUse, IllegalName, Unauthorized;
@@ -29,16 +29,16 @@ HlaError error_of(Refusal refusal);
 /// Why a synchronisation point was not registered; the numbers are those on the wire.
 enum class SynchronizationFailure : std::uint8_t {
   label_not_unique = 1,  ///< a point of that label has not been reached yet
-  member_not_joined,     ///< the set names one who is not joined
-  over_limit,  ///< the federate has registered as many points as it may that are not reached yet;
-               ///< Rink's own, for the standard knows no limit
+  member_not_joined,     ///< the set names a federate that is not joined
+  over_limit,  ///< the federate has too many points that are registered and not reached yet; Rink's
+               ///< own, for the standard knows no limit
 };
 /// The standard's words, "label not unique".
 const char* to_string(SynchronizationFailure failure);
 
 /// How a federate left.
 enum class ResignReason : std::uint8_t {
-  resigned,    ///< it said so
+  resigned,    ///< by its own request
   lost,        ///< its connection closed or fell silent
   misbehaved,  ///< it broke the protocol or used what it had not declared or did not own
 };

@@ -1,4 +1,4 @@
-// Refusals that name what each of the two ends has.
+// Texts of refusals that name the version or model of each end.
 #pragma once
 
 #include <cinttypes>
@@ -15,7 +15,7 @@ inline std::string refused_version(std::uint16_t of_federate, std::uint16_t of_r
          std::to_string(of_federate) + ", the RTI version " + std::to_string(of_rti);
 }
 
-/// By the hashes of the object models (docs/wire.md).
+/// Names both object models by their hashes (docs/wire.md).
 inline std::string refused_fom(std::uint64_t of_federate, std::uint64_t of_rti) {
   char hashes[96];
   std::snprintf(hashes, sizeof hashes,

@@ -1,5 +1,5 @@
-// What a federation may be told as its scheme, for those who know the RTI alone: names,
-// expressions, and how they are written.
+// Names of filters and the syntax of their expressions, for users of the RTI that do not include
+// im/.
 #pragma once
 
 #include "im/expression_fault.h"

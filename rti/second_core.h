@@ -1,5 +1,4 @@
-// A thread that waits for half of a match to do: what `im` is handed where a second core is to
-// spare.
+// A thread that does half of a match, for `im` where a second core is free.
 #pragma once
 
 #include <cassert>
@@ -38,7 +37,7 @@ class SecondCore final : public im::Worker {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return task_ == nullptr; });
   }
-  /// Tasks that it was given so far.
+  /// Tasks given to the thread so far.
   std::uint64_t task_count() const { return task_count_; }
 
  private:

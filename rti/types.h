@@ -1,4 +1,4 @@
-// The values that services and callbacks are handed: sets, stamps and times, regions, choices.
+// The arguments of services and callbacks: sets, stamps and times, regions, choices.
 #pragma once
 
 #include <compare>
@@ -18,8 +18,8 @@ namespace rink::rti {
 using AttributeSet = HandleSet<AttributeHandle, std::uint32_t>;
 inline constexpr std::uint32_t attribute_max = AttributeSet::capacity;
 /// Every object has this attribute, HLAprivilegeToDeleteObject, whether its class names it or not:
-/// who owns it may delete the object. It has no value, whoever publishes any attribute of a class
-/// publishes it, and only ownership management takes and tells it.
+/// its owner may delete the object. It has no value, every federate that publishes any attribute of
+/// a class publishes it, and only ownership management names it.
 inline constexpr AttributeHandle privilege_to_delete_object{attribute_max - 1};
 /// Most attributes that a class may name, inherited ones included.
 inline constexpr std::uint32_t named_attribute_max = attribute_max - 1;
@@ -50,8 +50,8 @@ enum class CallbackModel : std::uint8_t {
   evoked,     ///< when it calls `evoke_callback` or `evoke_multiple_callbacks`
 };
 
-/// What becomes of what a federate owns when it leaves (IEEE 1516.1-2010, 4.10 and 10.4); the
-/// numbers are those on the wire.
+/// What happens to the attributes that a federate owns when it leaves (IEEE 1516.1-2010, 4.10 and
+/// 10.4); the numbers are those on the wire.
 enum class ResignAction : std::uint8_t {
   unconditionally_divest_attributes,
   delete_objects,  ///< those whose deletion it may order
@@ -69,10 +69,10 @@ enum class Advisory : std::uint8_t {
   interaction_relevance
 };
 
-/// When something was said. Carried once per run of equal stamps, not per update.
+/// When a message was sent. Carried once per run of equal stamps, not per update.
 struct Stamp {
   double time = 0.0;      ///< logical time [s], the sender's
-  std::uint64_t tag = 0;  ///< the sender's user-supplied tag; the RTI only carries it
+  std::uint64_t tag = 0;  ///< the sender's user-supplied tag, which the RTI only carries
   friend bool operator==(const Stamp&, const Stamp&) = default;
 };
 
@@ -85,8 +85,8 @@ struct LogicalTime {
   friend auto operator<=>(const LogicalTime&, const LogicalTime&) = default;
 };
 
-/// Names a message that was sent in time-stamp order, to its sender and to those who receive it.
-/// Empty if it went in receive order.
+/// Names a message that was sent in time-stamp order, for its sender and its receivers. Empty if it
+/// went in receive order.
 struct RetractionHandle {
   FederateHandle sender;
   std::uint64_t number = 0;  ///< the sender's count
@@ -100,7 +100,7 @@ struct TimedStamp {
   Stamp stamp;
   bool is_in_order = false;  ///< received in time-stamp order too; else its receiver was not
                              ///< constrained, and it came as soon as it could
-  RetractionHandle handle;   ///< what `request_retraction` will name
+  RetractionHandle handle;   ///< the handle that `request_retraction` will name
 };
 
 /// A closed stretch of one dimension: ranges that touch overlap. Finite, `low <= high`.
@@ -131,10 +131,10 @@ struct FederationExecutionInformation {
                          const FederationExecutionInformation&) = default;
 };
 
-/// How long a silent peer is waited for.
+/// Timeouts of a silent connection.
 struct Timeouts {
-  double heartbeat_s = 1.0;   ///< a side that has nothing else to say says so this often
-  double lost_after_s = 5.0;  ///< a side that has said nothing for so long is lost
+  double heartbeat_s = 1.0;   ///< period of a side's heartbeat when it has nothing else to send
+  double lost_after_s = 5.0;  ///< a side that was silent for so long is lost
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// What each end says next.
+// The next message of each end of a handshake.
 #include "rti/admission/handshake.h"
 
 #include <cassert>
@@ -17,7 +17,7 @@ Handshake::Handshake(const SharedKey& key, Role role, std::string_view federatio
 }
 
 ProofBasis Handshake::basis() const {
-  assert(theirs_);  // a proof is bound to what both have drawn
+  assert(theirs_);  // a proof is bound to the nonces of both ends
   return role_ == Role::federate ? ProofBasis{ours_, *theirs_, federation_}
                                  : ProofBasis{*theirs_, ours_, federation_};
 }
@@ -48,7 +48,7 @@ Handshake::State Handshake::receive(Bytes& bytes) {
     Bytes frame;
     const Framing framing = incoming_.next(bytes, frame_max_to_join, frame);
     received_ += before - bytes.size();
-    if (framing != Framing::sound) fail("the other end speaks another language");
+    if (framing != Framing::sound) fail("the other end does not speak this protocol");
     else if (!frame.empty()) handle_frame(frame);
   }
   return state_;
@@ -65,7 +65,7 @@ void Handshake::handle_frame(Bytes frame) {
   if (kind == MessageKind::refused) return handle_refusal(body);
   if (kind == MessageKind::challenge && !theirs_) return handle_challenge(body);
   if (kind == MessageKind::admitted && theirs_) return handle_admission(body);
-  fail("the other end didn't prove that it has the key");
+  fail("the other end did not prove that it has the key");
 }
 
 void Handshake::handle_hello(Bytes body) {
@@ -103,7 +103,7 @@ void Handshake::handle_admission(Bytes body) {
   AdmittedMessage admitted;
   if (!exchange(reader, admitted) || !reader.is_at_end() ||
       !key_.is_proven(Role::rti, basis(), admitted.block))
-    return fail("the RTI doesn't have our key");
+    return fail("the RTI does not have this end's key");
   state_ = State::proven;
 }
 

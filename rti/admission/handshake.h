@@ -1,4 +1,4 @@
-// One conversation in which both ends prove that they have the same key.
+// One handshake in which both ends prove that they have the same key.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 namespace rink::rti {
 
 /// Hello, challenge, proof, proof. No I/O and no clock: bytes in, bytes out. The RTI's end never
-/// says more than it heard: `outgoing` stays empty rather.
+/// sends more bytes than it received; it sends nothing instead.
 class Handshake {
  public:
   enum class State : std::uint8_t {
     going_on,
     proven,  ///< the other end has the key
-    failed,  ///< it has not, or said something else: send what is left and close
+    failed,  ///< it has not, or sent something else: send what is left and close
   };
   /// `key` must outlive it. `nonce` must never have been used before. A federate's end has
   /// something to send at once.
@@ -27,8 +27,8 @@ class Handshake {
   State state() const { return state_; }
   /// After `failed`: a sentence for a user.
   const std::string& why() const { return why_; }
-  /// Takes from the front of `bytes`, which may be cut anywhere, no more than belongs to the
-  /// handshake; what is left once it is proven is the conversation's.
+  /// Takes no more than the handshake's bytes from the front of `bytes`, which may be cut anywhere;
+  /// what is left after the proof belongs to the user of the connection.
   State receive(Bytes& bytes);
   Bytes outgoing() const { return outgoing_; }
   void clear_outgoing() { outgoing_.clear(); }

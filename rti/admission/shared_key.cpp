@@ -20,8 +20,8 @@ const unsigned char* raw(const std::byte* bytes) {
 }
 unsigned char* raw(std::byte* bytes) { return reinterpret_cast<unsigned char*>(bytes); }
 
-/// Begins what is hashed: a proof for anything else, or of another version, can't be taken for one
-/// of these.
+/// Prefix of the hashed text, so that a proof for another purpose or of another version is never
+/// valid here.
 constexpr std::string_view purpose = "rink admission 1";
 
 void hash(crypto_generichash_state& state, Bytes bytes) {

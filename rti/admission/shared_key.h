@@ -1,4 +1,4 @@
-// A key that both ends have, and the proofs that they do.
+// A key that both ends have, and proofs of having it.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ using Proof = std::array<std::byte, 32>;
 /// From the operating system's generator, as keys are.
 Nonce draw_nonce();
 
-/// Which end says it: a proof of one is none of the other's, so nobody can be answered with their
-/// own.
+/// The end that makes a proof: the two ends' proofs differ, so a proof cannot be sent back to its
+/// maker.
 enum class Role : std::uint8_t { federate = 1, rti = 2 };
 
-/// What a proof is bound to: both ends' nonces, so that an old one is worth nothing, and the
-/// federation, so that one of another is not either.
+/// The data that a proof is bound to: both ends' nonces, so that an old proof is invalid, and the
+/// federation, so that a proof for another federation is.
 struct ProofBasis {
   Nonce federate{}, rti{};
   std::string_view federation;  ///< at most 255 bytes

@@ -1,4 +1,4 @@
-// How much somebody may do per second, with a second's worth at once.
+// A token bucket: a rate limit that allows bursts of one second's worth.
 #pragma once
 
 #include <algorithm>

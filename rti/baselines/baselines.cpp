@@ -12,8 +12,8 @@ namespace rink::rti {
 
 namespace {
 
-/// How many differences of each length there are: enough to choose by, and cheaper than to try
-/// every order on every record.
+/// Counts differences by their length: enough to choose an order by, and cheaper than trying every
+/// order on every record.
 using Lengths = std::array<std::uint32_t, 65>;
 
 std::uint8_t best_order(const Lengths& lengths) {
@@ -140,7 +140,7 @@ const Baselines::Keyframe::Record* Baselines::baseline(
   if (!block.keyframe || periodic_[block.run].is_full[record]) return nullptr;
   const Keyframe& keyframe = keyframes_[*block.keyframe % keyframe_window];
   const ObjectSlot slot = run.slots[record];
-  // A keyframe of this very flush is nobody's baseline yet, and a slot may have had another object.
+  // A keyframe of this flush is no federate's baseline yet, and a slot may have had another object.
   if (keyframe.number != block.keyframe || slot >= keyframe.records.size() ||
       keyframe.records[slot].object != run.records[record].handle)
     return nullptr;
@@ -196,7 +196,8 @@ void Baselines::encode(DeltaBlock& block, const UpdateRun& run) const {
   assert(block.difference_count == 0 || block.header.has_baseline);
 }
 
-/// False, and nothing is written, if there is no baseline or the absolute state is no longer.
+/// False, and nothing is written, if there is no baseline or the absolute state is not longer than
+/// the difference.
 bool Baselines::append_difference(BitWriter& bits, const DeltaBlock& block, const UpdateRun& run,
                                   std::size_t index) const {
   std::span<const std::int64_t> counts;

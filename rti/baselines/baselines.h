@@ -1,5 +1,5 @@
-// Periodic state at the RTI: keyframes that all receivers share, who has acknowledged which, and
-// blocks of differences that are encoded once for all who have the same.
+// Periodic state at the RTI: keyframes that all receivers share, which federate has acknowledged
+// which, and blocks of differences that are encoded once for all federates with the same keyframe.
 #pragma once
 
 #include <cassert>
@@ -17,16 +17,16 @@
 
 namespace rink::rti {
 
-/// A run of periodic state as those are told it who have acknowledged one keyframe, or none.
+/// A run of periodic state encoded for the federates that have acknowledged one keyframe, or none.
 struct DeltaBlock {
   struct Record {
-    std::uint32_t at = 0, size = 0;  ///< bits in `message`, behind the step to its handle
+    std::uint32_t at = 0, size = 0;  ///< bits in `message`, after the step to its handle
     bool is_difference = false;
   };
   std::size_t run = 0;
   std::optional<std::uint16_t> keyframe;
   DeltaHeader header;
-  std::vector<std::byte> message;  ///< as it goes on the wire
+  std::vector<std::byte> message;  ///< as it is sent
   std::vector<Record> records;     ///< as in the run
   Bitmap differences;              ///< slots whose record is one
   std::size_t difference_count = 0;
@@ -49,13 +49,13 @@ class Baselines {
     return is_keyframe_ ? std::optional(number_) : std::nullopt;
   }
 
-  /// What `federate` is to be told of a run that is covered, before it is cut to its interest.
+  /// The block for `federate` of a run that is covered, before it is cut to its interest.
   const DeltaBlock& block(const UpdateRun& run, std::size_t index, std::uint32_t federate);
   /// 64 objects from 64 * `word` on of which `federate` has the baseline that its blocks refer to.
   std::uint64_t known(std::uint32_t federate, std::size_t word) const;
-  /// These objects' records of this keyframe go to `federate`.
+  /// Notes that these objects' records of this keyframe go to `federate`.
   void note_sent(std::uint32_t federate, std::size_t word, std::uint64_t objects);
-  /// What stands for a record whose baseline is not known.
+  /// The encoding of a record whose baseline the federate lacks.
   void append_absolute(BitWriter& bits, const UpdateRun& run, std::size_t index,
                        std::size_t record) const;
   const QuantisedCodec& codec(std::size_t run) const {
@@ -67,11 +67,11 @@ class Baselines {
   /// The federate lacks a baseline: it gets absolute states until it acknowledges a keyframe that
   /// is yet to come.
   void refuse(std::uint32_t federate);
-  /// Somebody else takes the slot.
+  /// Another federate takes the slot.
   void forget(std::uint32_t federate);
 
-  /// Asserts that keyframes and what federates were sent of them lie where their numbers say, and
-  /// that no block is there twice.
+  /// Asserts that keyframes and what federates were sent of them are at the places of their
+  /// numbers, and that no block exists twice.
   void check() const;
   const BaselineCounters& counters() const { return counters_; }
   BaselineCounters& counters() { return counters_; }
@@ -98,7 +98,7 @@ class Baselines {
   };
   /// The counts of a run's records.
   struct Periodic {
-    const QuantisedCodec* codec = nullptr;  ///< null: not told by baselines
+    const QuantisedCodec* codec = nullptr;  ///< null: sent without baselines
     std::vector<std::int64_t> counts;       ///< `stride_` for each record
     std::vector<bool> is_full;              ///< by record: some of it is out of its range
   };

@@ -70,8 +70,7 @@ inline void predict(const QuantisedCodec& codec, std::span<const std::int64_t> b
     const Quantisation& grid = *fields[moved].grid;
     const double steps = std::nearbyint(
         fields[i].grid->value(static_cast<std::uint64_t>(baseline[i])) * elapsed / grid.step);
-    if (!(std::abs(steps) < 0x1p50))
-      continue;  // no instants that anybody means; not a number, perhaps
+    if (!(std::abs(steps) < 0x1p50)) continue;  // no meaningful instants; perhaps NaN
     predicted[moved] = std::clamp<std::int64_t>(predicted[moved] + static_cast<std::int64_t>(steps),
                                                 0, static_cast<std::int64_t>(grid.last));
   }
@@ -92,7 +91,7 @@ bool exchange_differences(Stream& stream, const QuantisedCodec& codec, const Ord
   return true;
 }
 
-/// Steps over the differences of one record, for who lacks its baseline.
+/// Steps over the differences of one record, for a reader that lacks its baseline.
 inline bool skip_differences(BitReader& bits, const QuantisedCodec& codec, const Orders& orders) {
   std::uint64_t difference = 0;
   for (std::size_t i = 0; i < codec.fields().size(); ++i)

@@ -1,5 +1,4 @@
-// What a federate keeps of the keyframes that it was sent, so that differences to them have
-// something to be differences to.
+// The keyframes that a federate received and keeps, to which later differences refer.
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@ class KeyframeMemory {
     std::span<const std::int64_t> counts;
   };
 
-  /// What is added until `seal` belongs to this keyframe.
+  /// Begins a keyframe; records added until `seal` belong to it.
   void begin(std::uint16_t number);
   bool is_open() const { return open_.has_value(); }
   void add(std::uint32_t object, double time, std::span<const std::int64_t> counts);
@@ -32,10 +31,10 @@ class KeyframeMemory {
   /// Nothing if the object or the keyframe is not known. Valid until the next call of another
   /// member. Fastest in ascending order of objects.
   std::optional<Baseline> find(std::uint16_t number, std::uint32_t object);
-  /// Nobody will refer to a keyframe before this one any more.
+  /// The RTI will not refer to a keyframe before this one any more.
   void drop_before(std::uint16_t number);
   std::size_t memory_bytes() const;
-  /// Asserts that what is sealed is in order and lies where its number says.
+  /// Asserts that sealed keyframes are in order and at the places of their numbers.
   void check() const;
 
  private:

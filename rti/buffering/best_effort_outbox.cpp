@@ -1,4 +1,4 @@
-// Gathers, seals and repairs.
+// Gathers updates into datagrams, seals them, and sends lost values again.
 #include "rti/buffering/best_effort_outbox.h"
 
 #include <cassert>

@@ -1,5 +1,5 @@
-// A federate's own best-effort updates on their way to the RTI by datagram: what goes out, what is
-// unsettled, and the newest value of each, should it be lost.
+// A federate's own best-effort updates on their way to the RTI by datagram: what is sent, what is
+// not acknowledged, and the newest value of each attribute in case it is lost.
 #pragma once
 
 #include <cassert>
@@ -13,15 +13,16 @@
 
 namespace rink::rti {
 
-/// Made when there is a way. It keeps the newest value of each best-effort attribute that it sent,
-/// as long as the object is ours: a repair sends that, not what was lost.
+/// Made when a datagram channel opens. It keeps the newest value of each best-effort attribute that
+/// it sent, as long as this federate owns the object: a repair sends that, not what was lost.
 class BestEffortOutbox {
  public:
-  static constexpr std::size_t size_min = 256;  ///< less is no use for a way [bytes]
+  static constexpr std::size_t size_min = 256;  ///< a channel for smaller datagrams is not used
+                                                ///< [bytes]
 
   explicit BestEffortOutbox(const Fom& fom);
 
-  /// The most bytes that a datagram may have now; 0 while there is no way.
+  /// The most bytes that a datagram may have now; 0 while there is no channel.
   void set_size(std::size_t size_max) { size_max_ = size_max; }
   bool is_usable() const { return size_max_ >= size_min && !channel_.has_fallen_back; }
   AttributeSet best_effort(ObjectClassHandle object_class) const {
@@ -30,15 +31,15 @@ class BestEffortOutbox {
   }
 
   /// `coded` are the values of `set`, all of them best-effort. False if it does not fit a datagram:
-  /// then it goes by the stream.
+  /// then the stream takes it.
   bool enqueue(ObjectHandle object, ObjectClassHandle object_class, AttributeSet set,
                const Stamp& stamp, Bytes coded);
-  /// True if some have not been sealed: a frame that is written now counts as said before them.
+  /// True if some have not been sealed: a frame that is written now counts as sent before them.
   bool is_pending() const { return !batch_.is_empty(); }
-  /// What is pending was said after `frames` frames.
+  /// Seals what is pending, as sent after `frames` frames.
   void seal(std::uint32_t frames, double now);
 
-  /// The newest value of one attribute, coded, and when it was said.
+  /// The newest value of one attribute, coded, and its stamp.
   struct Value {
     Stamp stamp;
     std::vector<std::byte> coded;
@@ -49,17 +50,19 @@ class BestEffortOutbox {
     std::vector<Value> values;  ///< by attribute
   };
   const Kept* find(ObjectHandle object) const { return kept_.find(object); }
-  /// Objects of which anything is kept.
+  /// The objects with values kept here.
   std::vector<ObjectHandle> list() const;
-  /// They go by another way from now on, or nowhere.
+  /// Forgets them: they are sent by the stream from now on, or not at all.
   void forget(ObjectHandle object, AttributeSet attributes);
 
-  /// False if it acknowledges what was never sent. A way that had fallen back is open again.
+  /// False if it acknowledges a datagram that was never sent. Opens a channel again that had fallen
+  /// back to the stream.
   bool acknowledge(const AcknowledgeDatagramsMessage& message, double now);
-  /// Whether datagrams went unanswered for too long; then all that is unsettled is `due`, and a
-  /// probe asks now and then.
+  /// Notices datagrams that went unanswered for too long: then all that is unacknowledged becomes
+  /// `due`, and a probe is sent now and then.
   void advance_clock(double now, std::uint32_t frames);
-  /// What was lost, to be said again as it is now. Taken by the caller.
+  /// The attributes that were lost and must be sent again with their present values. The caller
+  /// takes them.
   std::vector<DatagramLedger::Lost>& due() { return channel_.due; }
 
   /// Sealed datagrams, valid until `clear`.

@@ -10,7 +10,7 @@
 
 namespace rink::rti {
 
-/// Asked by `FederationExecution` alone. Federates are dense slots, objects too.
+/// Called by `FederationExecution` alone. Federates are dense slots, objects too.
 class Buffering {
  public:
   virtual ~Buffering() = default;
@@ -22,13 +22,13 @@ class Buffering {
   virtual std::span<const UpdateRun> seal() = 0;
   virtual void clear() = 0;
 
-  /// True if `federate`, which has not taken `waiting_bytes` of what was sent to it, is told no
-  /// values by this flush. The RTI remembers which objects it would have heard of, and by the first
-  /// flush that does not hold back tells it their newest state, once. Discoveries, scope changes,
-  /// interactions, removals and all about the federation go out in their order anyway. Asked once
+  /// True if `federate`, which has not taken `waiting_bytes` of what was sent to it, is sent no
+  /// values by this flush. The RTI remembers which objects it would have received, and the first
+  /// flush that does not hold back sends their newest state, once. Discoveries, scope changes,
+  /// interactions, removals and all about the federation are sent in their order anyway. Asked once
   /// per flush of each federate for which there may be values.
   virtual bool holds_back(std::uint32_t federate, std::size_t waiting_bytes) = 0;
-  /// Its slot may be another's from now on.
+  /// The federate is gone; another may take its slot.
   virtual void remove_federate(std::uint32_t federate) = 0;
 };
 

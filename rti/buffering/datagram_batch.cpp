@@ -1,4 +1,4 @@
-// Cutting and gathering datagrams.
+// Cuts runs into datagrams and gathers records for each destination.
 #include "rti/buffering/datagram_batch.h"
 
 #include <algorithm>
@@ -151,8 +151,8 @@ void DatagramBatch::add(const CutRun& cut) {
   assert(cut.fits && cut.size_max <= size_max_);
   for (const CutRun::Part& part : cut.parts) {
     const Bytes body = Bytes(cut.bytes).subspan(part.from, part.to - part.from);
-    // A short one shares its datagram with others if any follow or came before; a long one is its
-    // own. Either way nothing is copied if it stays alone.
+    // A short part shares its datagram with its neighbours; a long one is a datagram of its own.
+    // Nothing is copied of a part that stays alone.
     const bool is_short = 2 * body.size() < size_max_,
                follows_short = is_open_ || (!planned_.empty() && planned_.back().is_short);
     if (is_short && follows_short) {

@@ -1,5 +1,5 @@
-// The datagrams of one flush: cut once from runs of updates for all who hear of a whole run,
-// gathered record by record for others.
+// The datagrams of one flush: cut once from runs of updates for all federates that receive a whole
+// run, gathered record by record for others.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class CutRun {
  public:
   struct Part {
     std::size_t from, to;         ///< of `bytes`
-    SentRecordPool::Number sent;  ///< what it names
+    SentRecordPool::Number sent;  ///< the objects and attributes in it
   };
   /// `part_max` [bytes] of a part. `fits` is false afterwards if one record alone takes more.
   void cut(const UpdateRun& run, std::size_t part_max, SentRecordPool& lists);
@@ -35,17 +35,17 @@ class CutRun {
 /// Collects one destination's datagrams. Keeps its memory.
 class DatagramBatch {
  public:
-  /// A new flush: runs may have changed.
+  /// Begins a flush: runs may have changed.
   void begin_tick();
   /// Run number `index` of the tick, cut when it is first asked for, and again for another size.
   const CutRun& cut(std::size_t index, const UpdateRun& run, std::size_t size_max);
 
-  /// A new destination, whose datagrams have bodies of at most `size_max` bytes.
+  /// Begins a destination, whose datagrams have bodies of at most `size_max` bytes.
   void begin(std::size_t size_max);
-  /// The whole run. Its parts are not copied unless they are short; they must stay until the next
-  /// `begin_tick`.
+  /// Adds the whole run. Its parts are not copied unless they are short; they must stay until the
+  /// next `begin_tick`.
   void add(const CutRun& cut);
-  /// One record; false if it does not fit a datagram.
+  /// Adds one record; false if it does not fit a datagram.
   bool add(std::uint16_t object_class, AttributeSet attributes, const Stamp& stamp,
            std::uint32_t handle, Bytes values);
   bool is_empty() const { return planned_.empty() && !is_open_; }
@@ -53,12 +53,12 @@ class DatagramBatch {
   /// Numbers them after `frames` and notes in `ledger` what they carry. Valid until the next
   /// `begin`.
   std::span<const Datagram> finish(std::uint32_t frames, DatagramLedger& ledger, double now);
-  /// What ledgers refer to.
+  /// The records that ledgers refer to.
   SentRecordPool& lists() { return lists_; }
 
  private:
   struct Planned {
-    Bytes shared{};                                      ///< somebody's bytes, or
+    Bytes shared{};                                      ///< bytes of a shared part, or
     std::size_t from = 0, to = 0;                        ///< own ones
     SentRecordPool::Number sent = SentRecordPool::none;  ///< of the shared
     bool is_short = false;  ///< the shared is, and others may still share its datagram

@@ -1,4 +1,4 @@
-// Settling and losing datagrams.
+// Settles acknowledged datagrams and finds those that are lost.
 #include "rti/buffering/datagram_ledger.h"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ void DatagramLedger::drop_oldest() {
   if (--size_ > 0) oldest_sent_s_ = at(oldest()).sent_s;
 }
 
-/// From the newest back to the oldest, so that what later ones say of the same objects is gathered
-/// once, however many are lost. Rare, so it may gather.
+/// Goes from the newest back to the oldest, so that what later datagrams carry of the same objects
+/// is gathered once, however many are lost. Losses are rare, so this may allocate.
 template <class IsLost>
 void DatagramLedger::lose(IsLost is_lost, std::vector<Lost>& lost) {
   std::unordered_map<std::uint32_t, std::uint32_t> sent_later;
@@ -81,12 +81,9 @@ bool DatagramLedger::acknowledge(const AcknowledgeDatagramsMessage& message, dou
 void DatagramLedger::expire(double now, std::vector<Lost>& lost) {
   const double patience_s = 0.1 + DatagramReceipts::longest_delay_s + 2.0 * smoothed_s_;
   if (size_ == 0 || now - oldest_sent_s_ <= patience_s) return;
-  smoothed_s_ = std::min(
-      1.0,
-      2.0 *
-          std::max(
-              smoothed_s_,
-              0.05));  // no answer ever tells how long one takes that comes after we have given up
+  smoothed_s_ =
+      std::min(1.0, 2.0 * std::max(smoothed_s_,
+                                   0.05));  // an acknowledgement after giving up is never timed
   lose([&](std::uint32_t number) { return now - at(number).sent_s > patience_s; }, lost);
   forget_settled();
 }

@@ -1,4 +1,4 @@
-// What is in the datagrams that were sent and not yet acknowledged, so that the newest state of
+// The contents of datagrams that were sent and not yet acknowledged, so that the newest state of
 // what got lost can be sent again.
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace rink::rti {
 
-/// Of one destination. What a datagram says is kept as handles only: what is sent again is the
-/// newest state then, not what was lost. Of what many are sent alike, there is one list for all, in
-/// `lists`, which must outlive it. An entry takes 16 bytes: with 1,000 destinations it is memory
+/// The ledger of one destination. It keeps only the handles in a datagram: a repair sends the
+/// newest state, not what was lost. Destinations that are sent the same share one list in `lists`,
+/// which must outlive the ledger. An entry takes 16 bytes: with 1,000 destinations it is memory
 /// that costs, not work.
 class DatagramLedger {
  public:
@@ -30,24 +30,26 @@ class DatagramLedger {
     AttributeSet attributes;
   };
 
-  /// Notes the next datagram and returns its number. `now` [s]; `sent` names what it says and is
-  /// held for us.
+  /// Notes the next datagram and returns its number. `now` [s]; `sent` names its contents and is
+  /// held for this ledger.
   std::uint32_t note(double now, SentRecordPool::Number sent = SentRecordPool::none);
 
-  /// Settles what has arrived. What is overtaken by three that have arrived, or too old to be told,
-  /// is lost: appended to `lost`, unless a later datagram says the same attributes of the same
-  /// object. False if it acknowledges what was never sent.
+  /// Settles datagrams that have arrived. One that three later arrivals have overtaken, or that is
+  /// too old for an acknowledgement to name, is lost: its contents are appended to `lost`, unless a
+  /// later datagram has the same attributes of the same object. False if the message acknowledges a
+  /// datagram that was never sent.
   bool acknowledge(const AcknowledgeDatagramsMessage& message, double now, std::vector<Lost>& lost);
-  /// The same for what was sent longer ago than a round trip ever took.
+  /// Gives up datagrams that were sent longer ago than any round trip took, as above.
   void expire(double now, std::vector<Lost>& lost);
-  /// All that is unsettled is lost: there is no way any more.
+  /// Gives up all that is unacknowledged, since the channel has closed.
   void abandon(std::vector<Lost>& lost);
 
-  /// Since when everything has gone unanswered [s]; nothing if all is settled or an answer came
-  /// since.
+  /// The time since which everything has gone unanswered [s]; nothing if all is settled or an
+  /// answer came since.
   std::optional<double> unanswered_since() const { return unanswered_since_; }
   std::size_t unsettled() const { return size_; }
-  /// Asserts that the ring holds what is unsettled, from the oldest on, and lists that are held.
+  /// Asserts that the ring has the unacknowledged datagrams from the oldest on, and that their
+  /// lists are held.
   void check() const;
 
  private:
@@ -64,8 +66,8 @@ class DatagramLedger {
     return entry.sent == SentRecordPool::none ? Bytes() : lists_->groups(entry.sent);
   }
   void drop_oldest();
-  /// Of those that were given up: `is_lost(number)`, asked of all unsettled ones from the newest
-  /// back to the oldest.
+  /// Gives up the datagrams for which `is_lost(number)` is true, asked from the newest unsettled
+  /// one back to the oldest.
   template <class IsLost>
   void lose(IsLost is_lost, std::vector<Lost>& lost);
   void forget_settled();

@@ -1,4 +1,4 @@
-// Who reads and who has stopped.
+// Finds the federates that have stopped reading.
 #include "rti/buffering/newest_state.h"
 
 #include <cassert>

@@ -1,5 +1,5 @@
-// The buffering that comes with the RTI: everything as it is said to who reads, the newest state to
-// who has stopped for a while.
+// The RTI's own buffering: a federate that reads receives every update, one that has stopped for a
+// while receives the newest state.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace rink::rti {
 /// Two marks, so that a federate near one of them doesn't get whole states in turns with single
 /// updates.
 struct NewestStateSettings {
-  std::size_t hold_above = 256 * 1024;  ///< who has not taken more than this is held back [bytes];
-                                        ///< below the transport's own limit, which closes
+  std::size_t hold_above = 256 * 1024;  ///< a federate with more than this unread is held back
+                                        ///< [bytes]; below the transport's own limit, which closes
   std::size_t resume_below =
       32 * 1024;  ///< and until no more than this waits [bytes]; at most `hold_above`
 };
 
-/// A queue to a destination thus ends at `hold_above`, one flush and what is never held back,
-/// however long it doesn't read.
+/// A queue to a destination is thus at most `hold_above`, one flush and what is never held back,
+/// however long the destination does not read.
 class NewestState final : public Buffering {
  public:
   explicit NewestState(const NewestStateSettings& settings = {});

@@ -16,7 +16,7 @@ inline bool is_all_in_scope(const UpdateRun& run, const Bitmap& in_scope) {
 }
 
 /// Calls `visit(index of the record)` for each member that is in scope, whose turn it is and whose
-/// state doesn't go out whole anyway.
+/// full state is not due anyway.
 template <class Visit>
 void for_each_record(const UpdateRun& run, const FederateInterest& interest, Visit visit) {
   const Bitmap& reflected = interest.reflected();

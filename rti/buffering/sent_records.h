@@ -1,4 +1,4 @@
-// What datagrams named, kept once for all destinations that were sent the same.
+// The contents of datagrams, kept once for all destinations that were sent the same.
 #pragma once
 
 #include <cassert>
@@ -12,10 +12,10 @@
 
 namespace rink::rti {
 
-/// What one datagram names: groups of attributes (varint) and the steps from handle to handle that
-/// a block of updates has on the wire, ended by 0. Two bytes a handle at most where four would do
-/// without thought: with 275 positions to each of 1,000 federates every tick, what is
-/// unacknowledged must fit the cache.
+/// The contents of one datagram: groups of attributes (varint) and the steps from handle to handle
+/// that a block of updates has on the wire, ended by 0. A handle takes two bytes instead of four:
+/// with 275 positions to each of 1,000 federates every tick, the unacknowledged ones must fit the
+/// cache.
 class SentRecord {
  public:
   void clear() { bytes_.clear(), has_group_ = false; }
@@ -60,14 +60,14 @@ void for_each_sent(Bytes groups, Visit visit) {
   }
 }
 
-/// Lists that many destinations' ledgers refer to: unchanged while anybody does, then used again,
-/// with their memory.
+/// Lists that many destinations' ledgers refer to. A list is unchanged while any ledger refers to
+/// it; then its memory is used again.
 class SentRecordPool {
  public:
   using Number = std::uint32_t;
   static constexpr Number none = 0xffffffffu;
 
-  /// Held once, by whoever adds it.
+  /// Adds a list that is held once, by the caller.
   Number add(Bytes groups) {
     if (free_.empty()) {
       free_.push_back(static_cast<Number>(lists_.size()));

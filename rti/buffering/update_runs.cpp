@@ -24,9 +24,8 @@ UpdateRun& UpdateRuns::begin(const ObjectUpdate& update) {
 }
 
 UpdateRun& UpdateRuns::run_for(const ObjectUpdate& update) {
-  // Only a run behind the object's last one may take its next record, or updates of one object
-  // would overtake each other. Looking at the last eight runs suffices: a tick has few kinds of
-  // updates.
+  // Only a run after the object's last one may take its next record, or updates of one object would
+  // overtake each other. Looking at the last eight runs suffices: a tick has few kinds of updates.
   const std::size_t earliest =
       std::max<std::size_t>(last_run_[update.slot], size_ > 8 ? size_ - 8 : 0);
   for (std::size_t i = size_; i > earliest; --i) {

@@ -1,4 +1,4 @@
-// The updates of one tick, encoded once for all who will receive them.
+// The updates of one tick, encoded once for all their receivers.
 #pragma once
 
 #include <cassert>
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// What one federate says of one object.
+/// One update of one object by one federate.
 struct ObjectUpdate {
   std::uint32_t owner = 0;  ///< the federate's slot
   ObjectSlot slot = no_object;
@@ -31,8 +31,8 @@ struct UpdateRun {
   std::uint16_t object_class = 0;
   AttributeSet attributes;
   Stamp stamp;
-  std::vector<std::byte> message;  ///< the whole message as it goes on the wire, but for the zero
-                                   ///< that `seal` puts at its end
+  std::vector<std::byte> message;  ///< the whole message as it is sent, but for the zero that
+                                   ///< `seal` puts at its end
   std::vector<ObjectSlot> slots;   ///< of the records, in their order
   std::vector<Record> records;
   Bitmap members;                             ///< the same slots

@@ -1,4 +1,4 @@
-// How the arguments of a callback are kept in a buffer of bytes and found again.
+// Stores the arguments of a callback in a buffer of bytes and reads them again.
 #pragma once
 
 #include <array>
@@ -18,8 +18,7 @@
 
 namespace rink::rti {
 
-/// Appends arguments, each at a multiple of `alignment`, so that a view of them can be handed out
-/// where they lie.
+/// Appends arguments, each at a multiple of `alignment`, so that a view of them needs no copy.
 class ArgumentWriter {
  public:
   static constexpr std::size_t alignment = alignof(std::max_align_t);
@@ -68,7 +67,7 @@ class ArgumentWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Takes them in the same order; views are into what is read.
+/// Reads arguments in the same order; views are into the bytes that are read.
 class ArgumentReader {
  public:
   explicit ArgumentReader(const std::byte* at) : at_(at) {}

@@ -1,4 +1,4 @@
-// Delivers what a callback queue keeps.
+// Delivers the callbacks that a queue keeps.
 #include "rti/callbacks/callback_queue.h"
 
 #include <cassert>

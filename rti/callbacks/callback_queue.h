@@ -13,11 +13,11 @@
 
 namespace rink::rti {
 
-/// Stands before a federate and writes down what it would have been told: the callback and a copy
-/// of its arguments, one after the other in one buffer, so nothing is allocated per callback once
-/// that has grown. Rejected: keeping the messages themselves and reading them late, for one message
-/// may be many callbacks (a block of updates, a grant with what was queued by time), and the
-/// ambassador would answer its peers late. Every callback is here; a test compares the two lists.
+/// Takes the place of a federate and records each callback with a copy of its arguments, one after
+/// the other in one buffer, so nothing is allocated per callback once that has grown. The rejected
+/// alternative is keeping the messages and reading them late: one message may be many callbacks (a
+/// block of updates, a grant with what was queued by time), and the ambassador would answer its
+/// peers late. Every callback is here; a test compares the two lists.
 class CallbackQueue final : public FederateAmbassador {
  public:
   /// `federate` must outlive it.
@@ -26,7 +26,7 @@ class CallbackQueue final : public FederateAmbassador {
   bool is_empty() const { return taken_ == records_.size(); }
   std::size_t waiting_bytes() const { return records_.size() - taken_; }
   std::size_t memory_bytes() const { return records_.capacity() + delivering_.capacity(); }
-  /// Tells the federate the oldest; there must be one. What the callback causes to be queued comes
+  /// Delivers the oldest callback; there must be one. What the callback causes to be queued comes
   /// after all that waits.
   void deliver_one();
   bool is_delivering() const { return is_delivering_; }
@@ -239,7 +239,7 @@ class CallbackQueue final : public FederateAmbassador {
   std::vector<std::byte> records_;
   std::size_t taken_ = 0;  ///< bytes of `records_` that were delivered
   std::vector<std::byte>
-      delivering_;  ///< the record at hand: what its callback causes may move the others
+      delivering_;  ///< the record that is delivered: its callback may make the others move
   bool is_delivering_ = false;
 };
 

@@ -1,4 +1,4 @@
-// A region as it was last committed, and who uses it.
+// A region as it was last committed, and what uses it.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ using RegionSlot = std::uint32_t;
 inline constexpr RegionSlot no_region = 0xffffffffu;
 
 /// Over X and Y the filter knows it; other dimensions are compared one by one, for pairs that the
-/// filter lets through or, where one of two regions lacks X or Y, for all. The rejected
-/// alternative, filters of more dimensions, would make the common plane slower for a case in which
-/// the plane leaves few pairs.
+/// filter lets through or, where one of two regions lacks X or Y, for all pairs. The rejected
+/// alternative, filters of more dimensions, would slow the common case of the plane for one in
+/// which the plane leaves few pairs.
 struct DistributedRegion {
   bool exists = false, is_committed = false;
-  bool is_placed = false;   ///< over both X and Y: the filter's business
-  bool is_planar = false;   ///< over nothing else: the filter's business alone
-  bool is_changed = false;  ///< since the last match, in a way that the filter doesn't know
+  bool is_placed = false;   ///< over both X and Y: the filter decides
+  bool is_planar = false;   ///< over nothing else: the filter alone decides
+  bool is_changed = false;  ///< since the last match, in a way that the filter does not see
   std::uint32_t federate = 0;
   im::Entity entity = 0;  ///< the filter's number, if placed and used for updates
   DimensionSet dimensions;

@@ -1,4 +1,4 @@
-// Says nothing that the filter makes nothing of.
+// Passes facts about objects and federates to the filter, but none that it ignores.
 #include "rti/distribution/filter_facts.h"
 
 #include <cstddef>
@@ -30,8 +30,8 @@ void FilterFacts::set_object_role(ObjectSlot object, const im::Role& role) {
   objects_[object] = role;
 }
 
-/// Objects that share a region differ to the filter in nothing, so they have in common what they
-/// agree in; one of them that is always relevant takes the others along.
+/// Objects that share a region are one entity to the filter, so its role is what they agree in; if
+/// one of them is always relevant, all are.
 void FilterFacts::inform_entity(const DistributedRegion& region) const {
   if (!traits_.uses_roles || !region.is_placed || !region.is_committed || region.objects.empty())
     return;

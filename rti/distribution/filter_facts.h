@@ -1,5 +1,5 @@
-// What the filter knows beside regions: roles, headings and flights of objects and federates, and
-// by them what a federate owns.
+// What the filter knows beside regions: roles, headings and motions of objects and federates, and
+// from roles which objects belong to a federate's owner.
 #pragma once
 
 #include <cstdint>
@@ -25,29 +25,29 @@ class FilterFacts {
   void set_federate_role(std::uint32_t federate, const im::Role& role) {
     federates_[federate].role = role;
   }
-  /// False if it looks there already.
+  /// False if the federate has that heading already.
   bool set_heading(std::uint32_t federate, const im::Heading& heading);
-  /// Says a federate's role and heading of one of its subscriptions.
+  /// Passes a federate's role and heading for one of its subscriptions.
   void inform_subscriber(std::uint32_t federate, im::Subscriber subscriber) const;
-  /// The heading alone.
+  /// Passes the heading alone.
   void inform_heading(std::uint32_t federate, im::Subscriber subscriber) const;
 
   im::Role object_role(ObjectSlot object) const {
     return object < objects_.size() ? objects_[object] : im::Role{};
   }
   void set_object_role(ObjectSlot object, const im::Role& role);
-  /// It is gone; the slot's next object has no role.
+  /// The object is gone; the slot's next object has no role.
   void forget(ObjectSlot object) {
     if (object < objects_.size()) objects_[object] = {};
   }
-  /// Says what is known of the objects that use the region.
+  /// Passes what is known of the objects that use the region.
   void inform_entity(const DistributedRegion& region) const;
   void set_flight(const DistributedRegion& region, const im::Flight& flight) const;
   void set_time(double now) const {
     if (traits_.uses_flights) filter_.set_time(now);
   }
 
-  /// Whether the object's owner has the number of the federate's.
+  /// True if the object and the federate have the same owner.
   bool is_own(std::uint32_t federate, ObjectSlot object) const {
     const std::uint32_t owner = federates_[federate].role.owner;
     return owner != im::Role::none && object < objects_.size() && objects_[object].owner == owner;
@@ -62,7 +62,7 @@ class FilterFacts {
   im::Filter& filter_;
   const im::Traits traits_;
   std::vector<Known> federates_;   ///< by slot
-  std::vector<im::Role> objects_;  ///< by slot; as long as the last that has one
+  std::vector<im::Role> objects_;  ///< by slot; as long as the last object with a role
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,5 @@
-// Two parts that one change concerns are notified in the order in which each may rely on the other.
+// Forwards each change to its part; where it concerns two, the second may rely on what the first
+// has done.
 #include "rti/distribution/interest.h"
 
 #include <algorithm>
@@ -130,8 +131,8 @@ void Interest::disassociate(std::uint32_t federate, ObjectSlot slot, RegionHandl
   take(regions_.disassociate(slot, regions_.slot_of(federate, region), attributes));
 }
 
-/// Whether all objects of a class have the same attributes in scope is not what it was if some use
-/// several regions now, or none does any more.
+/// The scope of a class may stop or start to be uniform when objects begin or end to use several
+/// regions.
 void Interest::take(const Reassociation& change) {
   for (const im::Entity entity : change.gone) subscriptions_.forget(entity);
   changed_objects_.insert(changed_objects_.end(), change.objects.begin(), change.objects.end());

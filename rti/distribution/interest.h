@@ -19,8 +19,8 @@
 
 namespace rink::rti {
 
-/// May be derived from, to replace some of it. Hands every service on to the part whose it is, and
-/// to a second one where a change concerns two, in that order.
+/// Forwards every service to its part, and to a second one where a change concerns two. Users may
+/// derive from it to replace some of it.
 class Interest : public DataDistribution {
  public:
   Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership,

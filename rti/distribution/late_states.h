@@ -1,4 +1,4 @@
-// What a federate has not been told yet of objects in its scope, attribute by attribute.
+// The attributes of objects in a federate's scope whose newest values it has not been sent yet.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace rink::rti {
 
-/// Objects by their numbers, 64 at once as in `Bitmap`. One bit for each object and each attribute
-/// that was ever late: what its values are the object table knows.
+/// Sets of objects by their numbers, 64 at once as in `Bitmap`: one bit for each object and each
+/// attribute that was ever late. The object table has the values.
 class LateStates {
  public:
   void put_off(std::size_t word, std::uint64_t objects, AttributeSet attributes) {
@@ -30,14 +30,14 @@ class LateStates {
 
   std::uint64_t any(std::size_t word) const { return any_.word(word); }
   std::size_t word_count() const { return any_.word_count(); }
-  /// Objects of which something else is late than `attributes`.
+  /// Objects with late attributes other than `attributes`.
   std::uint64_t beyond(std::size_t word, AttributeSet attributes) const {
     std::uint64_t objects = 0;
     for (std::uint32_t each = 0; each < by_attribute_.size(); ++each)
       if (!attributes.contains({each})) objects |= by_attribute_[each].word(word);
     return objects;
   }
-  /// What is late of one.
+  /// The late attributes of one object.
   AttributeSet of(std::uint32_t object) const {
     AttributeSet set;
     for (std::uint32_t each = 0; each < by_attribute_.size(); ++each)

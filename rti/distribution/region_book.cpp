@@ -241,7 +241,7 @@ void RegionBook::release(std::uint32_t number) {
 }
 
 std::size_t RegionBook::memory_bytes() const {
-  constexpr std::size_t node_size = 16;  // what a map adds to each, about
+  constexpr std::size_t node_size = 16;  // about what a map adds to each element
   return entries_.capacity() * sizeof entries_[0] + free_.capacity() * sizeof free_[0] +
          whole_.memory_bytes() + templates_.size() * (sizeof(Template) + node_size) +
          subscriptions_.size() * (sizeof(std::uint64_t) * 2 + node_size) +

@@ -16,23 +16,23 @@
 
 namespace rink::rti {
 
-/// Every member but the bulk's throws `RtiException` before it changes anything: InvalidRegion for
-/// what is no region, RegionNotCreatedByThisFederate for another federate's. A handle holds a mark
-/// of its federate's name beside the number that the wire carries; two federates have equal marks
-/// once in 16,383.
+/// Every member but the unchecked ones for bulk changes throws `RtiException` before it changes
+/// anything: InvalidRegion for a handle of no region, RegionNotCreatedByThisFederate for another
+/// federate's. A handle holds a mark of its federate's name beside the number that the wire
+/// carries; two federates have equal marks once in 16,383.
 class RegionBook {
  public:
   static constexpr std::uint32_t number_bits = 18;
 
   explicit RegionBook(const Fom& fom) : fom_(fom) {}
-  /// Before the first region is made.
+  /// Call it before the first region is made.
   void sign(std::string_view federate_name);
 
   /// Without dimensions: over the plane of X and Y [m], whether or not the model has them. Empty if
   /// all numbers are in use.
   RegionHandle create(DimensionSet dimensions);
-  /// Throws RegionInUseForUpdateOrSubscription if it is; an object for which `is_own(ObjectHandle)`
-  /// is false uses nothing any more.
+  /// Throws RegionInUseForUpdateOrSubscription if the region is in use; objects for which
+  /// `is_own(ObjectHandle)` is false do not count.
   template <class IsOwn>
   void remove(RegionHandle region, IsOwn is_own) {
     const std::uint32_t number = check(region);
@@ -42,9 +42,9 @@ class RegionBook {
     release(number);
   }
 
-  /// The number under which the RTI knows it.
+  /// The region's number on the wire.
   std::uint32_t check(RegionHandle region) const;
-  /// The same without a look at whether it exists, for the bulk.
+  /// The number without a check that the region exists, for bulk changes.
   std::uint32_t number(RegionHandle region) const {
     assert(region.value >> number_bits == mark_ && (region.value & number_mask) < entries_.size());
     return region.value & number_mask;
@@ -52,37 +52,37 @@ class RegionBook {
   bool is_planar(RegionHandle region) const { return entries_[check(region)].is_planar; }
   DimensionSet dimensions(RegionHandle region) const;
 
-  /// Of a planar region.
+  /// The region must be planar.
   void set_plane(RegionHandle region, const im::Region& bounds);
   void set_plane_unchecked(std::uint32_t number, const im::Region& bounds) {
     assert(number < entries_.size());
     entries_[number].plane = bounds;
   }
   const im::Region& plane(std::uint32_t number) const { return entries_[number].plane; }
-  /// Throws RegionDoesNotContainSpecifiedDimension and InvalidRangeBound. Of a dimension with an
-  /// upper bound: whole numbers, 0 <= low < high <= bound, and `high` is the first that the range
-  /// does not hold; of one without: finite, low <= high, both held.
+  /// Throws RegionDoesNotContainSpecifiedDimension and InvalidRangeBound. With an upper bound the
+  /// range has whole numbers, 0 <= low < high <= bound, and excludes `high`; without one it is
+  /// finite, low <= high, and includes both.
   void set_range(RegionHandle region, DimensionHandle dimension, const Range& range);
-  /// As it was set; all of a dimension with an upper bound that was not. Throws InvalidRegion for
-  /// one without a bound that was not.
+  /// The range as it was set. A range that was not set is the whole dimension if that has an upper
+  /// bound, else InvalidRegion is thrown.
   Range range(RegionHandle region, DimensionHandle dimension) const;
-  /// What the wire carries: closed ranges, one for each dimension in ascending order. Throws
-  /// InvalidRegion if one is due that was never set.
+  /// Closed ranges as the wire carries them, one for each dimension in ascending order. Throws
+  /// InvalidRegion if a range is needed that was never set.
   void closed_ranges(RegionHandle region, std::vector<Range>& ranges) const;
 
   /// Throws InvalidRegionContext unless every dimension of the region is one of `available`, which
   /// `of` has.
   void check_context(RegionHandle region, DimensionSet available, std::string_view of) const;
 
-  /// What uses what. The pairs have been checked.
+  /// Note what uses which region. The pairs have been checked.
   void subscribe(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region,
                  bool is_added);
   void replace_subscription(ObjectClassHandle object_class, AttributeSet attributes,
                             RegionHandle region);
   void subscribe(InteractionClassHandle interaction_class, RegionHandle region, bool is_added);
-  /// All of it uses the region alone; an empty one: none.
+  /// All attributes of the object use the region alone, or none if the handle is empty.
   void associate(ObjectHandle object, RegionHandle region);
-  /// `all` are those of its class.
+  /// `all` are the attributes of the object's class.
   void associate(ObjectHandle object, AttributeSet all, AttributeSet attributes,
                  RegionHandle region, bool is_added);
   void forget(ObjectHandle object);

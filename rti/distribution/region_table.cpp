@@ -1,5 +1,5 @@
-// Bounds and uses: each change goes to the filter at once, and what it can't know is listed for
-// the next match.
+// Changes of bounds and uses: each is passed to the filter at once, and what the filter cannot see
+// is listed for the next match.
 #include "rti/distribution/region_table.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ RegionTable::RegionTable(const Fom& fom, const ObjectTable& objects, im::Filter&
 
 void RegionTable::add_federate(std::uint32_t federate) {
   if (federate >= handles_.size()) handles_.resize(federate + std::size_t{1});
-  // Its former regions are gone, or they would be nobody's.
+  // The slot's former federate has no regions left.
   assert(
       std::ranges::all_of(handles_[federate], [](RegionSlot slot) { return slot == no_region; }));
   handles_[federate].clear();
@@ -301,7 +301,7 @@ void RegionTable::check() const {
   assert(subscriptions == unplaced_subscription_count_);
 }
 
-/// Whether the region's maker has it under one of its handles.
+/// True if the region's maker has it under one of its handles.
 bool RegionTable::slot_of_holder(const DistributedRegion& region, RegionSlot slot) const {
   return std::ranges::count(handles_[region.federate], slot) == 1;
 }

@@ -21,10 +21,10 @@ struct Association {
   AttributeSet attributes;
 };
 
-/// What follows when objects use other regions than before.
+/// The consequences when objects use other regions than before.
 struct Reassociation {
   std::vector<ObjectSlot> objects;  ///< those
-  std::vector<im::Entity> gone;     ///< the filter's numbers that stand for nothing any more
+  std::vector<im::Entity> gone;     ///< the filter's numbers that are free now
   bool is_mixing_changed = false;   ///< some object uses several regions now, or none does any more
 
   void add(const Reassociation& other) {
@@ -37,12 +37,12 @@ struct Reassociation {
 /// What a commit did.
 enum class Commit : std::uint8_t { impossible, unchanged, first, moved };
 
-/// Tells the filter where entities are. Federates and regions that are asked for exist, where
-/// nothing else is said (asserted where it costs little).
+/// Passes the places of entities to the filter. Federates and regions named by a caller must exist
+/// unless stated otherwise (asserted where it costs little).
 class RegionTable {
  public:
-  /// What an object uses. The entity spares those that use one region over the plane alone, nearly
-  /// all, a look at the region.
+  /// The region that an object uses. The copy of the entity spares nearly all objects, which use
+  /// one region over the plane alone, a look at the region.
   struct Use {
     RegionSlot region = no_region;  ///< or none, or `several`
     im::Entity entity = no_entity;  ///< if it is planar
@@ -71,10 +71,10 @@ class RegionTable {
   }
 
   bool create(std::uint32_t federate, RegionHandle region, DimensionSet dimensions);
-  /// Impossible where there is no such region, or it is not over the plane alone.
+  /// `impossible` if there is no such region or it is not over the plane alone.
   Commit modify(std::uint32_t federate, RegionHandle region, const im::Region& bounds);
   Commit modify(std::uint32_t federate, RegionHandle region, std::span<const Range> ranges);
-  /// Nothing may subscribe with it any more (asserted).
+  /// No subscription may use the region any more (asserted).
   Reassociation remove(std::uint32_t federate, RegionHandle region);
   /// One subscription to an object class more, or less, names the region.
   void count_subscription(RegionSlot slot, bool is_added);
@@ -85,7 +85,7 @@ class RegionTable {
     return uses_[object];
   }
   ObjectSlot object_count() const { return static_cast<ObjectSlot>(uses_.size()); }
-  /// Of an object that uses several.
+  /// The associations of an object that uses several regions.
   const std::vector<Association>& several_of(ObjectSlot object) const {
     return associations_.at(object);
   }
@@ -96,18 +96,19 @@ class RegionTable {
   Reassociation associate(ObjectSlot object, RegionSlot region, AttributeSet attributes);
   Reassociation disassociate(ObjectSlot object, RegionSlot region, AttributeSet attributes);
 
-  /// IEEE 1516.1-2010, 9.1: in all dimensions that they have in common, of which there must be one.
+  /// True if the regions overlap in all dimensions that they have in common, of which there must be
+  /// one (IEEE 1516.1-2010, 9.1).
   bool overlap(const DistributedRegion& a, const DistributedRegion& b);
-  /// The same of two that overlap in the plane: in all others.
+  /// True if two regions that overlap in the plane overlap in all other common dimensions too.
   bool overlap_beyond_plane(const DistributedRegion& a, const DistributedRegion& b);
   /// Those of `attributes` whose regions overlap `asked`; those of the default region always do.
   AttributeSet overlapping(const DistributedRegion& asked, ObjectSlot object,
                            AttributeSet attributes);
 
-  /// Those that are used for updates and lack X or Y.
+  /// Regions that are used for updates and lack X or Y.
   std::span<const RegionSlot> unplaced() const { return unplaced_; }
-  /// Those that changed since they were last forgotten, in a way that the filter can't know: in
-  /// other dimensions than the plane's, or against a region that lacks one of these.
+  /// Regions that changed since `forget_changed` in a way that the filter cannot see: in other
+  /// dimensions than the plane's, or against a region that lacks one of these.
   std::span<const RegionSlot> changed() const { return changed_; }
   void forget_changed();
   /// Asserts that handles and regions lead to each other, and that lists and counts are right.

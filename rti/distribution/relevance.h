@@ -1,5 +1,4 @@
-// Who hears anything of a class, counted, so that those who publish it can be told when nobody
-// does.
+// Counts the subscribers of each class, so that publishers can be advised when there are none.
 #pragma once
 
 #include <array>
@@ -11,12 +10,12 @@
 
 namespace rink::rti {
 
-/// Subscriptions of all federates, in whatever region. Classes of objects and of interactions are
-/// rows of one table: an interaction class is one attribute, the first. A change costs as many
-/// steps as attributes change, not as there are federates.
+/// Subscriptions of all federates, in any region. Classes of objects and of interactions are rows
+/// of one table: an interaction class is one attribute, the first. A change costs a step for each
+/// changed attribute, however many federates there are.
 class Relevance {
  public:
-  /// What a row's listeners are to an interaction class.
+  /// A subscription to an interaction class as a row has it.
   static Subscription of(Listening listening) {
     return {AttributeSet(listening != Listening::none),
             AttributeSet(listening == Listening::active)};
@@ -25,8 +24,8 @@ class Relevance {
   explicit Relevance(std::size_t rows) : rows_(rows) {}
   std::size_t row_count() const { return rows_.size(); }
 
-  /// Replaces what `federate` hears of a row. True if that may concern another federate than
-  /// before: what two others hear, a third one's coming or going does not change.
+  /// Replaces the subscription of `federate` to a row. True if that may matter to some other
+  /// federate: an attribute to which two others subscribe is not affected by a third.
   bool set(std::uint32_t federate, std::size_t row, const Subscription& now) {
     assert(row < rows_.size() && now.subscribed.includes(now.active));
     if (federate >= federates_.size()) federates_.resize(federate + 1);
@@ -38,7 +37,7 @@ class Relevance {
     own[row] = now;
     return is_subscribed_news || is_active_news;
   }
-  /// What others than `federate` hear of a row.
+  /// The subscriptions of federates other than `federate` to a row, together.
   Subscription of_others(std::uint32_t federate, std::size_t row) const {
     assert(row < rows_.size());
     const Subscription own = federate < federates_.size() && !federates_[federate].empty()
@@ -49,10 +48,10 @@ class Relevance {
   }
 
  private:
-  /// How many federates hear each attribute.
+  /// How many federates subscribe to each attribute.
   struct Counts {
     std::array<std::uint32_t, attribute_max> by_attribute{};
-    AttributeSet any, several;  ///< those that at least one hears, and at least two
+    AttributeSet any, several;  ///< attributes with at least one subscriber, and with at least two
 
     bool change(AttributeSet before, AttributeSet now) {
       const AttributeSet any_before = any, several_before = several;
@@ -74,7 +73,7 @@ class Relevance {
   };
   std::vector<Row> rows_;
   std::vector<std::vector<Subscription>>
-      federates_;  ///< by slot, then by row; empty where nothing was ever heard
+      federates_;  ///< by slot, then by row; empty for a federate that never subscribed
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,5 @@
-// Reconsiders pairs of a federate and an object, each as often as something of it changed.
+// Computes the scope of each pair of a federate and an object again when something of the pair has
+// changed.
 #include "rti/distribution/scope_matcher.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ void ScopeMatcher::match(std::span<const im::Change> changes, std::vector<Object
 }
 
 void ScopeMatcher::apply_filter_changes(std::span<const im::Change> changes) {
-  // Memberships first, all of them: what a federate wants of an object depends on several regions.
+  // All memberships come first: the attributes in scope may depend on several regions.
   Subscriptions& subscriptions = parts_.subscriptions;
   const bool says_tiers = parts_.turns.says_tiers();
   for (const im::Change& each : changes) subscriptions.take(each, says_tiers);
@@ -44,8 +45,8 @@ void ScopeMatcher::apply_changed_regions(std::vector<ObjectSlot>& changed) {
   parts_.regions.forget_changed();
 }
 
-/// All that may have come or gone by a change of the subscription's region in other dimensions:
-/// what the filter lets through and what it doesn't know.
+/// Considers all objects that a change of the subscription's region in other dimensions may
+/// concern: those that the filter lets through and those that it does not know.
 void ScopeMatcher::reconsider_around(const DeclaredInterest& declared, const Regional& regional) {
   const RegionTable& regions = parts_.regions;
   if (!regional.is_placed) {
@@ -61,7 +62,7 @@ void ScopeMatcher::reconsider_around(const DeclaredInterest& declared, const Reg
     for (const ObjectSlot slot : regions[region].objects) reconsider(declared, slot);
 }
 
-/// Those of `attributes` that the regional subscription gets of an object that uses several
+/// The part of `attributes` that the regional subscription covers of an object that uses several
 /// regions.
 AttributeSet ScopeMatcher::covered(const Regional& regional, ObjectSlot object,
                                    AttributeSet attributes) const {
@@ -164,7 +165,7 @@ void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& in
   const AttributeSet was = interest.attributes_in_scope(slot, parts_.objects[slot].object_class);
   if (parts_.turns.says_tiers() && !is.is_empty())
     parts_.turns.place(*interest.turns, declared, slot, was.is_empty());
-  // What is heard as before is touched, too: it may be heard passively now.
+  // An object whose scope is as before is touched, too: its subscription may be passive now.
   if (was != is || !is.is_empty()) parts_.scopes.touch(slot);
   if (was == is) return;
   if (was.is_empty()) {

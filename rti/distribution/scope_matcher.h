@@ -1,5 +1,5 @@
-// The scope that follows from subscriptions and regions: which attributes of which objects, worked
-// out again where something changed.
+// The scope that follows from subscriptions and regions: which attributes of which objects,
+// computed again where something changed.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@
 
 namespace rink::rti {
 
-/// One region per object and one region over X and Y per subscription take the short way: one bit
-/// when it is asked for.
+/// A subscription with one region over X and Y to objects with one region each is the fast case:
+/// one bit for each pair.
 class ScopeMatcher {
  public:
-  /// What decides, and where the decision is written; all must outlive the matcher.
+  /// The inputs of the decision, and the scopes that it is written to; all must outlive the
+  /// matcher.
   struct Parts {
     const ObjectTable& objects;
     const Ownership& ownership;
@@ -32,10 +33,11 @@ class ScopeMatcher {
   };
   explicit ScopeMatcher(const Parts& parts) : parts_(parts) {}
 
-  /// Works out what follows from the filter's changes, and from all that was said since the last
-  /// match; empties `changed`, the objects of which something is another than then.
+  /// Computes the changes of scope that follow from the filter's changes and from those of
+  /// subscriptions and regions since the last match. `changed` are the objects that differ from
+  /// then; it is emptied.
   void match(std::span<const im::Change> changes, std::vector<ObjectSlot>& changed);
-  /// See DataDistribution.
+  /// See `DataDistribution`.
   AttributeSet actively_in_scope(std::uint32_t federate, ObjectSlot slot) const;
 
  private:

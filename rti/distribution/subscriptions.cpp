@@ -131,7 +131,7 @@ Subscriptions::Regional& Subscriptions::regional(DeclaredInterest& interest, Reg
   for (Regional& each : interest.regionals)
     if (each.region == slot) return each;
   const DistributedRegion& region = regions_[slot];
-  assert(region.exists && region.federate == interest.federate);  // nobody uses another's
+  assert(region.exists && region.federate == interest.federate);  // a federate uses only its own
   regions_.count_subscription(slot, true);
   Regional& added = interest.regionals.emplace_back();
   added.region = slot;
@@ -205,7 +205,7 @@ void Subscriptions::take(const im::Change& change, bool says_tiers) {
   assert(regional != regionals.end());
   const bool has_left = change.transition == im::Transition::left;
   if (has_left) regional->inside.erase(change.entity);
-  else regional->inside.insert(change.entity);  // it may be there already and only change its tier
+  else regional->inside.insert(change.entity);  // it may be inside already and only change its tier
   if (says_tiers) set_tier(*regional, change.entity, has_left ? 0u : change.tier);
 }
 

@@ -1,5 +1,5 @@
-// What each federate subscribes to, everywhere or within a region, and what the filter let through
-// of it last.
+// Each federate's subscriptions, everywhere or within a region, and what the filter last let
+// through for each.
 #pragma once
 
 #include <cassert>
@@ -31,7 +31,7 @@ struct DeclaredInterest {
     bool is_placed = false, is_planar = false;
     ClassInterest classes;
     Bitmap inside;  ///< entities whose region overlaps in the plane, as of the last match
-    std::vector<Bitmap> tiers;  ///< of those, who is in tier 1, 2 ..., as far as there are any
+    std::vector<Bitmap> tiers;  ///< the part of those in tier 1, 2 ..., as far as there are any
   };
   struct InteractionRegion {
     std::uint16_t interaction_class = 0;
@@ -45,7 +45,7 @@ struct DeclaredInterest {
   bool is_changed = false;  ///< subscriptions differ from those of the last match
 };
 
-/// Tells the filter where subscribers are. Regions are named by their slots.
+/// Passes the places of subscribers to the filter. Regions are named by their slots.
 class Subscriptions {
  public:
   using Regional = DeclaredInterest::Regional;
@@ -54,7 +54,7 @@ class Subscriptions {
   Subscriptions(const Fom& fom, RegionTable& regions, im::Filter& filter, const FilterFacts& facts);
 
   void add_federate(std::uint32_t federate);
-  /// Its regions are gone (asserted), and with them what names them.
+  /// The federate's regions must be removed before (asserted).
   void remove_federate(std::uint32_t federate);
   const DeclaredInterest& of(std::uint32_t federate) const {
     assert(federate < federates_.size() && federates_[federate]);
@@ -67,7 +67,7 @@ class Subscriptions {
       if (each) visit(*each);
   }
 
-  /// Replaces what the federate named for the class and region; no_region is everywhere.
+  /// Replaces the federate's subscription to the class with the region; `no_region` is everywhere.
   void subscribe(std::uint32_t federate, std::uint16_t object_class, const Subscription& attributes,
                  RegionSlot region);
   Subscription subscribed(std::uint32_t federate, std::uint16_t object_class,
@@ -76,8 +76,8 @@ class Subscriptions {
   void subscribe_interaction(std::uint32_t federate, std::uint16_t interaction_class,
                              RegionSlot region, Listening listening);
   Listening subscribes_interaction(std::uint32_t federate, std::uint16_t interaction_class) const;
-  /// Calls `visit(region)` for each with which the federate subscribes to the class or a
-  /// superclass, until it returns true; whether it did.
+  /// Calls `visit(region)` for each region with which the federate subscribes to the class or a
+  /// superclass, until it returns true. Returns whether it did.
   template <class Visit>
   bool any_region_of_interaction(std::uint32_t federate, std::uint16_t interaction_class,
                                  Visit visit) const {
@@ -85,15 +85,15 @@ class Subscriptions {
       if (is_a(interaction_class, each.interaction_class) && visit(each.region)) return true;
     return false;
   }
-  /// What a subscription names of a class that is not passive.
+  /// The attributes of a class to which a subscription is not passive.
   AttributeSet active(const ClassInterest& interest, std::uint16_t object_class) const;
 
-  /// Ends all that the federate subscribes with the region.
+  /// Ends all subscriptions of the federate with the region.
   void drop(std::uint32_t federate, RegionSlot region);
-  /// The region was committed, for the first time or again: the filter is told of who subscribes
-  /// with it.
+  /// The region was committed, for the first time or again: passes the subscribers with it to the
+  /// filter.
   void follow(RegionSlot region, bool is_first);
-  /// What a federate is known by has changed: the filter is told for all its subscriptions.
+  /// A federate's role or heading has changed: passes it to the filter for all its subscriptions.
   void inform_filter(std::uint32_t federate);
   void inform_headings(std::uint32_t federate);
 
@@ -104,15 +104,15 @@ class Subscriptions {
   }
   /// The filter lets an entity through, or no longer, or puts it into another tier.
   void take(const im::Change& change, bool says_tiers);
-  /// The filter's number stands for nothing any more.
+  /// The filter's number is free now.
   void forget(im::Entity entity);
-  /// Whether the subscription's region overlaps an update region, as of the last match where the
-  /// filter decides.
+  /// True if the subscription's region overlaps an update region; where the filter decides, as of
+  /// the last match.
   bool is_within(const Regional& regional, RegionSlot update) const;
 
-  /// All that the federate hears of is to be worked out again.
+  /// The federate's whole scope must be computed again.
   void mark_changed(std::uint32_t federate) { federates_[federate]->is_changed = true; }
-  /// The same of everybody who subscribes with regions.
+  /// The scopes of all federates that subscribe with regions must be computed again.
   void mark_regional_changed();
   void clear_changed(std::uint32_t federate) { federates_[federate]->is_changed = false; }
 
@@ -130,7 +130,7 @@ class Subscriptions {
   RegionTable& regions_;
   im::Filter& filter_;
   const FilterFacts& facts_;
-  std::vector<std::unique_ptr<DeclaredInterest>> federates_;  ///< by slot; null where nobody is
+  std::vector<std::unique_ptr<DeclaredInterest>> federates_;  ///< by slot; null in free slots
   std::vector<std::uint32_t> subscribers_;  ///< federate slot, by the filter's number
   std::vector<im::Subscriber> free_subscribers_;
 };

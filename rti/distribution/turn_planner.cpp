@@ -1,4 +1,5 @@
-// What waits is updated later by its newest state alone, so a turn that is missed costs nothing.
+// Plans turns and shares out budgets. An object that waits is updated later by its newest state
+// alone, so a missed turn costs nothing.
 #include "rti/distribution/turn_planner.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ TurnPlanner::TurnPlanner(im::Filter& filter, const ObjectTable& objects, const R
       says_tiers_(filter.traits().says_tiers),
       budget_(filter.priority() ? filter.priority()->budget() : 0) {}
 
-/// In scope without the filter's saying so.
+/// True if the object is in scope by a subscription on which the filter does not decide.
 bool TurnPlanner::never_waits(const DeclaredInterest& declared, ObjectSlot slot) const {
   const RegionTable::Use& used = regions_.use_of(slot);
   const std::uint16_t object_class = objects_[slot].object_class;
@@ -75,7 +76,7 @@ void TurnPlanner::plan_turns(FederateInterest& interest) const {
   turns.prompt.clear();
 }
 
-/// Once for each match: what comes between two of them waits for the next.
+/// The budget is shared out once for each match; changes between two matches wait for the next.
 void TurnPlanner::share_out(FederateInterest& interest,
                             const DataDistribution::BytesDue& bytes_due) {
   assert(has_budget() && interest.turns);

@@ -1,4 +1,4 @@
-// Tiers and budgets: who of those in scope is not told of yet.
+// Tiers and budgets: which objects in scope are not updated yet.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace rink::rti {
 
-/// For filters that say tiers or have a budget; of others nobody waits, and it is asked nothing.
+/// For filters that decide tiers or have a budget; with others no object waits.
 class TurnPlanner {
  public:
   /// All must outlive it.
@@ -19,14 +19,14 @@ class TurnPlanner {
 
   bool says_tiers() const { return says_tiers_; }
   bool has_budget() const { return budget_ > 0; }
-  /// Whether federates have turns at all.
+  /// True if federates have turns at all.
   bool is_needed() const { return says_tiers_ || has_budget(); }
 
   void begin_match() { ++match_; }
   /// Puts an object in scope into the nearest tier in which some subscription has it; into none if
-  /// one hears of it without the filter's saying so.
+  /// the filter does not decide on one of the subscriptions.
   void place(Turns& turns, const DeclaredInterest& declared, ObjectSlot slot, bool is_new) const;
-  /// See DataDistribution.
+  /// See `DataDistribution`.
   void plan_turns(FederateInterest& interest) const;
   void share_out(FederateInterest& interest, const DataDistribution::BytesDue& bytes_due);
 
@@ -45,7 +45,8 @@ class TurnPlanner {
   const bool says_tiers_;
   const std::size_t budget_;  ///< of the filter's priority [bytes]; 0: none
   std::uint64_t match_ = 0;   ///< number of the last match
-  Bitmap put_off_, sent_;     ///< of the federate whose budget is shared out; kept for their memory
+  Bitmap put_off_, sent_;     ///< of the federate whose budget is shared out; members to reuse
+                              ///< their memory
 };
 
 }  // namespace rink::rti

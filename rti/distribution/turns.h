@@ -1,4 +1,4 @@
-// Whose turn it is to be updated, where not all objects in scope are updated at once.
+// The turns in which objects in scope are updated where not all are updated at once.
 #pragma once
 
 #include <array>
@@ -10,27 +10,28 @@
 
 namespace rink::rti {
 
-/// One federate's, under a filter that says tiers or has a budget. Sets of objects by slot.
+/// One federate's turns, under a filter that decides tiers or has a budget. Sets of objects by
+/// slot.
 struct Turns {
   /// An object in tier k is updated every 2^k-th match, at most this k: objects take turns by their
   /// slots, and the turns of 64 of them fit a word.
   static constexpr std::uint32_t tier_max = 6;
 
-  std::array<Bitmap, tier_max>
-      tiers;  ///< in scope and in tier 1, 2 ...; who is in none is in tier 0
+  std::array<Bitmap, tier_max> tiers;  ///< in scope and in tier 1, 2 ...; the others are in tier 0
   Bitmap
       prompt;  ///< changed their tiers since the last flush: what is late of them waits no longer
   std::uint64_t shared_out = 0;  ///< the match whose budget is spent
   LateStates late;
 
-  // Of the flush at hand.
-  Bitmap waiting;    ///< in scope, and not told of
-  Bitmap caught_up;  ///< told of what is late from the newest state, since the updates at hand
-                     ///< don't say it all
-  Bitmap reflected;  ///< told of by the updates at hand
+  // The three sets of one flush.
+  Bitmap waiting;    ///< in scope, and not updated
+  Bitmap caught_up;  ///< sent their late attributes from the newest state, which this flush's
+                     ///< updates lack
+  Bitmap reflected;  ///< updated by this flush's updates
 };
 
-/// The slots from 64 i on whose turn it is at `match` in tier `tier`, for every i alike.
+/// The slots whose turn it is at `match` in tier `tier`, as a word that is the same for every 64
+/// slots.
 constexpr std::uint64_t turn_of(std::uint64_t match, std::uint32_t tier) {
   assert(tier <= Turns::tier_max);
   const std::uint32_t period = 1u << tier;

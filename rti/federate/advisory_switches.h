@@ -1,13 +1,13 @@
-// The services by which a federate says which advisories it wants to be told.
+// The services by which a federate chooses the advisories that it receives.
 #pragma once
 
 #include "rti/types.h"
 
 namespace rink::rti {
 
-/// 10.27 to 10.34. All are on at first but that of attribute relevance; what is so already throws
-/// ObjectClassRelevanceAdvisorySwitchIsOn and its kin. A base of `Switched`, which has
-/// `switch_advisory(Advisory, bool)`.
+/// 10.27 to 10.34. All are on at first but that of attribute relevance; setting a switch to the
+/// value that it has throws ObjectClassRelevanceAdvisorySwitchIsOn or its like. A base of
+/// `Switched`, which has `switch_advisory(Advisory, bool)`.
 template <class Switched>
 class AdvisorySwitches {
  public:

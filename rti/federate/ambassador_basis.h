@@ -1,4 +1,4 @@
-// What the services of an ambassador stand on.
+// References that every service of an ambassador needs.
 #pragma once
 
 #include "rti/ambassador_counters.h"
@@ -9,7 +9,7 @@
 
 namespace rink::rti {
 
-/// Each service is handed it by its maker and keeps a copy; all that it names outlives them.
+/// Each service keeps a copy; all that it refers to outlives the services.
 struct AmbassadorBasis {
   const Fom& fom;
   FederateAmbassador& callbacks;  ///< the federate, or the queue before it

@@ -1,4 +1,5 @@
-// What an ambassador's services share: the stream, the gate before callbacks, and the books.
+// The state that an ambassador's services share: the stream, the gate before callbacks, and the
+// records of classes, objects and ownership.
 #pragma once
 
 #include "rti/federate/ambassador_basis.h"

@@ -1,4 +1,4 @@
-// What an ambassador does that concerns several of its services.
+// The actions of an ambassador that concern several of its services.
 #include "rti/federate/ambassador_parts.h"
 
 #include "rti/wire/membership_messages.h"
@@ -113,7 +113,7 @@ bool AmbassadorParts::handle_joined(Reader& reader) {
   return true;
 }
 
-/// The RTI's last message. What it says is why the connection is lost.
+/// The RTI's last message gives the reason why the connection is lost.
 bool AmbassadorParts::handle_expelled(Reader& reader) {
   ExpelledMessage message;
   if (!exchange(reader, message)) return false;

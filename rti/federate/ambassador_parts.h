@@ -1,4 +1,4 @@
-// What an ambassador is made of; for its own sources only.
+// The parts of an ambassador; for its own sources only.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@
 namespace rink::rti {
 
 /// Owns the services, each of which sees only those above it, and does what concerns several of
-/// them in a stated order: joining, losing the connection, and reading what comes.
+/// them in a stated order: joining, losing the connection, and reading messages.
 class AmbassadorParts final {
  public:
   AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts,
@@ -40,7 +40,7 @@ class AmbassadorParts final {
   void enable_callbacks();
   void disable_callbacks();
   void lose(std::string_view why);
-  /// All but the object itself.
+  /// Memory of the parts without this object itself [bytes].
   std::size_t memory_bytes() const;
 
   // Messages that concern several services.
@@ -70,8 +70,8 @@ class AmbassadorParts final {
   bool handle_bytes(Bytes bytes);
   bool handle_frame(Bytes frame);
   bool handle_message(Reader& reader, ReadContext& context);
-  /// Hands a message whose kind was read to its service (federate_message_table.cpp). False if it
-  /// makes no sense, or not now.
+  /// Passes a message whose kind was read to its service (federate_message_table.cpp). False if it
+  /// is malformed or not allowed now.
   bool dispatch(MessageKind kind, Reader& reader, ReadContext& context);
   bool postpone(Reader& reader, MessageKind kind, const ReadContext& context);
   bool release_postponed();

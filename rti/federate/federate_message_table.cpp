@@ -1,4 +1,5 @@
-// Which service answers for which kind of message that the RTI may send: one line for each.
+// The table of message kinds that the RTI may send and the services that handle them, one line for
+// each.
 #include <array>
 
 #include "rti/federate/ambassador_parts.h"

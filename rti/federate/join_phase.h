@@ -9,14 +9,15 @@
 
 namespace rink::rti {
 
-/// Goes one way: a federate joins once, and what has ended stays so.
+/// The phases follow in one direction: a federate joins once, and a membership that has ended stays
+/// ended.
 class JoinPhase {
  public:
   bool is_idle() const { return phase_ == Phase::idle; }
   bool is_joining() const { return phase_ == Phase::joining; }
   bool is_joined() const { return phase_ == Phase::joined; }
   bool has_ended() const { return phase_ == Phase::ended; }
-  /// Whether it may send anything but questions to a host.
+  /// True if the federate may send anything but questions to a host.
   bool may_send() const { return is_joining() || is_joined(); }
   /// Empty before it has joined.
   FederateHandle federate() const { return federate_; }

@@ -1,4 +1,4 @@
-// What a message from the RTI is read under, handed along to whoever handles it.
+// The context in which a message from the RTI is read, passed to its handler.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,10 @@
 
 namespace rink::rti {
 
-/// One for each frame, each datagram, and what is inside of a message that goes in time-stamp
-/// order.
+/// There is one for each frame, each datagram, and each message inside one in time-stamp order.
 struct ReadContext {
-  std::optional<Stamp> stamp;         ///< of the updates that follow, once it was sent
-  const TimedStamp* timed = nullptr;  ///< of what was sent in time-stamp order
+  std::optional<Stamp> stamp;         ///< of the updates that follow, once one was received
+  const TimedStamp* timed = nullptr;  ///< of a message in time-stamp order, else null
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// What connections ask of a federation that they need not have joined.
+// Answers the requests that a connection may make before it has joined.
 #include <utility>
 
 #include "rti/federation/connections.h"
@@ -15,7 +15,7 @@ Status Connections::answer(ConnectionId id, Message message) {
   return std::nullopt;
 }
 
-/// A host of one execution makes no others and keeps the one it has.
+/// A host of one execution refuses to create others or to destroy its own.
 Status Connections::answer_stranger(ConnectionId id, MessageKind kind, Reader& reader) {
   if (!connections_[id].limits.ask()) return Violation::over_limit;
   const std::string& own = basis_.settings.federation;
@@ -60,7 +60,7 @@ Status Connections::query_report(ConnectionId id) {
   return std::nullopt;
 }
 
-/// How long each has been silent is the connections' to say.
+/// Adds to the census how long each connection has been silent.
 FederationReport Connections::report(const Outlet* outlet) const {
   FederationReport report = census_.report(outlet);
   for (FederateReport& each : report.federates)
@@ -81,7 +81,7 @@ void Connections::send_answers(Outlet& outlet) {
   if (!report_queries_.empty()) send_reports(outlet);
 }
 
-/// One report serves all who asked since the last flush.
+/// One report serves all requests since the last flush.
 void Connections::send_reports(Outlet& outlet) {
   const FederationReport whole = report(&outlet);
   for (const ConnectionId id : report_queries_) {

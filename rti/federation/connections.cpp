@@ -1,4 +1,4 @@
-// Bytes into frames and messages, and what ends a connection.
+// Reads frames and messages from bytes, and drops connections.
 #include "rti/federation/connections.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void Connections::expel(ConnectionId id, Violation violation, ResignReason reaso
                         std::string_view why) {
   assert(id < connections_.size());
   ++basis_.counters.drops[static_cast<std::size_t>(violation)];
-  // A stranger who breaks a rule gets no answer: it may be another program altogether.
+  // An unjoined connection that breaks a rule gets no answer: it may be another program altogether.
   const bool was_joined = is_joined(id);
   if (was_joined) desk_.remove(connections_[id].federate, reason);
   connections_[id] = {};
@@ -65,11 +65,12 @@ Status Connections::resign(ConnectionId id) {
 void Connections::receive(ConnectionId id, Bytes bytes) {
   if (is_unknown(id)) return;
   basis_.counters.bytes_received += bytes.size();
-  // A stranger's frame counts when it is whole: one byte now and then says nothing.
+  // Of an unjoined connection only whole frames count as signs of life: one byte now and then does
+  // not.
   connections_[id].has_spoken |= is_joined(id);
   if (is_joined(id)) basis_.federates[connections_[id].federate].counts.bytes_sent += bytes.size();
-  // The reader leaves its connection meanwhile: dropping the connection must not pull it from under
-  // our feet.
+  // The reader is moved out meanwhile, so that dropping the connection does not destroy it while it
+  // reads.
   FrameReader reader = std::move(connections_[id].reader);
   Status status;
   const auto limit = [&] { return is_joined(id) ? frame_max_to_rti : frame_max_to_join; };
@@ -141,8 +142,8 @@ void Connections::refuse(ConnectionId id, const Membership::Objection& objection
   bytes.insert(bytes.end(), refused.begin(), refused.end());
 }
 
-/// The federate finds out from the digest where its own model differs; nothing of a model too large
-/// for one.
+/// The federate finds out from the digest where its own model differs. Empty for a model that is
+/// too large for one.
 std::vector<std::byte> Connections::framed_digest() const {
   const std::vector<FomDigestEntry> entries = digest(basis_.fom);
   if (entries.size() > FomDigestMessage::count_max) return {};

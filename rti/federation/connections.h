@@ -1,5 +1,5 @@
-// Connections, from their first bytes to their farewell: whose words are a federate's, and what
-// strangers are answered.
+// Connections from their first bytes to their end: frames of federates are forwarded, requests of
+// unjoined connections answered.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace rink::rti {
 
-/// What a connection leads to: the federation itself.
+/// The federation as its connections see it.
 class FederateDesk {
  public:
   virtual ~FederateDesk() = default;
-  /// The slot of who joins.
+  /// Admits a federate and returns its slot.
   virtual std::uint32_t admit(ConnectionId connection, const JoinMessage& message) = 0;
   virtual void remove(std::uint32_t slot, ResignReason reason) = 0;
   /// A frame of a federate that has joined: its beginning, each message, and its end.
@@ -39,15 +39,15 @@ class Connections {
   void disconnect(ConnectionId id);
   void receive(ConnectionId id, Bytes bytes);
   void receive_datagram(ConnectionId id, Bytes datagram);
-  /// Drops who has been silent for too long.
+  /// Drops connections that have been silent for too long.
   void advance_clock();
   void expel(ConnectionId id, Violation violation, ResignReason reason, std::string_view why);
   Status resign(ConnectionId id);
-  /// Answered by the next flush.
+  /// The next flush answers.
   Status query_report(ConnectionId id);
   FederationReport report(const Outlet* outlet) const;
 
-  /// What strangers asked goes out at once, reports to federates by their outboxes.
+  /// Answers to unjoined connections are sent at once, reports to federates by their outboxes.
   void send_answers(Outlet& outlet);
   void close_pending(Outlet& outlet);
 
@@ -77,7 +77,7 @@ class Connections {
   std::vector<FederationConnection> connections_;  ///< by id
   std::vector<ConnectionId> report_queries_;       ///< that wait for the next flush
   std::vector<PendingClose> pending_closes_,
-      answers_;  ///< answers go to those who have not joined, and don't end their connection
+      answers_;  ///< answers go to unjoined connections, which stay open
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// One federate's way for best-effort updates beside its stream.
+// One federate's channel for best-effort updates beside its stream.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@ namespace rink::rti {
 
 struct DatagramChannel {
   static constexpr double fallback_after_s =
-      2.0;  ///< without an answer, everything goes by the stream again [s]
+      2.0;  ///< without an answer, everything is sent by the stream again [s]
   static constexpr double probe_period_s =
-      1.0;  ///< then an empty datagram asks now and then if the way is open again [s]
+      1.0;  ///< period of the empty datagrams that then probe the channel [s]
   explicit DatagramChannel(SentRecordPool& lists) : ledger(lists) {}
 
   DatagramLedger ledger;
-  std::vector<DatagramLedger::Lost> due;  ///< to be sent again, as it is then
+  std::vector<DatagramLedger::Lost> due;  ///< to be sent again with its present value
   bool has_fallen_back = false;
   double probed_s = 0.0;
 };

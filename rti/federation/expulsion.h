@@ -10,7 +10,8 @@
 
 namespace rink::rti {
 
-/// At once, in the midst of whatever is going on: who is expelled is asked and told nothing more.
+/// Takes effect at once, also in the middle of another action: an expelled federate receives
+/// nothing more.
 using Expulsion = std::function<void(std::uint32_t slot, Violation violation, ResignReason reason,
                                      std::string_view why)>;
 

@@ -1,4 +1,4 @@
-// Slots, handles and blocks are given out in a fixed order, for all of them show on the wire.
+// Assigns slots, handles and blocks in a fixed order, since all of them show on the wire.
 #include "rti/federation/federate_table.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Who has joined a federation execution: slots, handles, names and blocks of object handles.
+// The federates that have joined a federation execution: slots, handles, names and blocks of object
+// handles.
 #pragma once
 
 #include <cassert>
@@ -21,38 +22,38 @@ class FederateTable {
  public:
   JoinedFederate& operator[](std::uint32_t slot) { return federates_[slot]; }
   const JoinedFederate& operator[](std::uint32_t slot) const { return federates_[slot]; }
-  /// Slots, with those that nobody has.
+  /// The number of slots, free ones included.
   std::uint32_t size() const { return static_cast<std::uint32_t>(federates_.size()); }
   auto begin() { return federates_.begin(); }
   auto end() { return federates_.end(); }
   auto begin() const { return federates_.begin(); }
   auto end() const { return federates_.end(); }
-  /// Who has joined.
+  /// The number of federates that have joined.
   std::size_t joined_count() const { return joined_count_; }
 
-  /// A slot with a block of handles, of which one must be left, whose owner has not joined: it is
-  /// sent nothing, and nobody counts it.
+  /// Adds a slot with a block of handles, of which one must be left, that belongs to no joined
+  /// federate: it is sent nothing and not counted.
   std::uint32_t add();
   std::uint32_t admit(ConnectionId connection, std::string_view name, std::string_view type);
-  /// It is no longer there for others, who are yet to be told; `release` follows.
+  /// The federate is no longer joined, but others are yet to be notified; `release` follows.
   void retire(std::uint32_t slot);
-  /// Nothing is left of who had the slot.
+  /// Frees the slot.
   void release(std::uint32_t slot);
 
   bool is_taken(std::string_view name) const { return names_.contains(std::string(name)); }
-  /// Nothing if it has left, or there was none of that handle.
+  /// The federate's slot; nothing if it has left or the handle was never given.
   std::optional<std::uint32_t> joined(FederateHandle federate) const;
   bool was_given(FederateHandle federate) const { return federate.value < slot_of_handle_.size(); }
-  /// That it has or had; the handle must have been given.
+  /// The slot that the federate has or had; the handle must have been given.
   std::uint32_t slot_of(FederateHandle federate) const {
     assert(was_given(federate));
     return slot_of_handle_[federate.value];
   }
 
   bool has_block() const { return !free_blocks_.empty() || next_block_ < object_block_max; }
-  /// One must be left.
+  /// A block must be left.
   std::uint32_t take_block();
-  /// None of its handles was ever used.
+  /// Takes back a block of which no handle was ever used.
   void give_back(std::uint32_t block) {
     assert(block < next_block_);
     free_blocks_.push_back(block);

@@ -1,4 +1,4 @@
-// What the services of a federation execution stand on.
+// References that every service of a federation execution needs.
 #pragma once
 
 #include "rti/federation/federate_table.h"
@@ -9,7 +9,7 @@
 
 namespace rink::rti {
 
-/// Each service is handed it by its maker and keeps a copy; all that it names outlives them.
+/// Each service keeps a copy; all that it refers to outlives the services.
 struct FederationBasis {
   const Fom& fom;
   const FederationSettings& settings;

@@ -1,4 +1,4 @@
-// What a federation execution keeps of one connection, and of one that it is about to drop.
+// A federation execution's record of one connection, and of one that it is about to drop.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The parts that come with the RTI stand where the user gives none.
+// Makes the RTI's own parts where the user gives none.
 #include "rti/federation/federation_ground.h"
 
 #include <utility>

@@ -1,4 +1,5 @@
-// What all services of a federation execution stand on, and the parts that a user may replace.
+// The state that all services of a federation execution share, and the parts that a user may
+// replace.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@
 
 namespace rink::rti {
 
-/// Owns what `FederationBasis` names. It stays where it is.
+/// Owns what `FederationBasis` refers to. It must not move.
 struct FederationGround {
   FederationGround(const Fom& fom, const FederationSettings& settings,
                    const FederationServices& services, std::unique_ptr<im::Filter> filter);

@@ -1,4 +1,4 @@
-// How the services are put together, and in which order they hear of those who come and go.
+// Composes the services, and notifies them in a fixed order when federates join or leave.
 #include "rti/federation/federation_parts.h"
 
 #include <cassert>
@@ -64,8 +64,9 @@ void FederationParts::match() {
   ground.counters.scope_exits = ground.distribution->counters().exits;
 }
 
-/// What is announced asks its owner in the next flush, for requests are settled before it; what a
-/// message in time-stamp order presses asks in this one.
+/// Requests to owners that announcements cause are sent by the next flush, since requests are
+/// settled before announcements; those of objects that a message in time-stamp order needs now are
+/// sent by this one.
 void FederationParts::flush(Outlet& outlet) {
   time.settle();
   declarations.advise_object_relevance();
@@ -93,8 +94,8 @@ std::uint32_t FederationParts::admit(ConnectionId connection, const JoinMessage&
   return slot;
 }
 
-/// The order shows on the wire: objects go before those are told who watch federates, and blocks
-/// are free before the RTI's own objects may take one.
+/// The order shows on the wire: objects are removed before watchers of federates are notified, and
+/// blocks are free before the RTI's own objects may take one.
 void FederationParts::remove(std::uint32_t slot, ResignReason reason) {
   owners.left(slot);
   ground.distribution->remove_federate(slot);

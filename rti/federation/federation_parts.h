@@ -1,4 +1,4 @@
-// What a federation execution is made of; for its own sources only.
+// The parts of a federation execution; for its own sources only.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@
 
 namespace rink::rti {
 
-/// Owns the services, each of which sees only those above it, and holds the lists whose order shows
-/// on the wire: who hears of it when a federate leaves, and what a flush does.
+/// Owns the services, each of which sees only those above it, and has the sequences whose order
+/// shows on the wire: the steps when a federate leaves, and those of a flush.
 class FederationParts final : private FederateDesk {
  public:
   FederationParts(const Fom& fom, const FederationSettings& settings,
@@ -36,11 +36,11 @@ class FederationParts final : private FederateDesk {
   void advance_clock(double now);
   void match();
   void flush(Outlet& outlet);
-  /// What it subscribes has changed: publishers hear of it at once, and so do the RTI's own
-  /// objects, which are given their handles now.
+  /// The federate's subscriptions have changed: notifies publishers at once, and the RTI's own
+  /// objects, which get their handles now.
   void subscriptions_changed(std::uint32_t slot);
-  /// An interaction that was read; one that is for the RTI is answered before it reaches others.
-  /// `regions` are the sender's; none: the default region, which overlaps all.
+  /// Delivers an interaction that was read; one for the RTI is answered before it reaches others.
+  /// `regions` are the sender's; if there are none, it has the default region, which overlaps all.
   Status send(std::uint32_t slot, InteractionMessage& message,
               std::span<const RegionHandle> regions);
 

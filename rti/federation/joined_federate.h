@@ -1,4 +1,4 @@
-// What a federation execution keeps of one federate, from its joining to its leaving.
+// A federation execution's record of one federate, from its joining to its leaving.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Joining, and what others are notified of.
+// Admits federates, and notifies the others.
 #include "rti/federation/membership.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Who may join a federation execution, and who is notified when a federate comes or goes (IEEE
-// 1516.1-2010, 4.9 and 4.10).
+// Decides which federates may join a federation execution, and notifies watchers when a federate
+// joins or leaves (IEEE 1516.1-2010, 4.9 and 4.10).
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ class Membership {
   };
   explicit Membership(const FederationBasis& basis) : basis_(basis) {}
 
-  /// Why it may not join; nothing if it may.
+  /// The reason why the federate may not join; nothing if it may.
   std::optional<Objection> objection(const JoinMessage& message) const;
-  /// It wants to be told of all who are there, who come and who go.
+  /// The federate asks for notices of all that are joined, that join and that leave.
   Status handle_watch(std::uint32_t slot);
   void joined(std::uint32_t slot);
-  /// While its handle and name are still known.
+  /// Call it while the federate's handle and name are still known.
   void left(std::uint32_t slot, ResignReason reason);
 
  private:

@@ -1,4 +1,5 @@
-// Who answers for which kind of message that a federate may send: one line for each.
+// The table of message kinds that a federate may send and the services that handle them, one line
+// for each.
 #include <array>
 
 #include "rti/federation/federation_parts.h"
@@ -7,7 +8,7 @@ namespace rink::rti {
 
 namespace {
 
-/// Federates' kinds and those that go both ways; what the RTI says alone begins here.
+/// Kinds that federates send; those that only the RTI sends begin at `joined`.
 constexpr std::size_t kind_count = static_cast<std::size_t>(MessageKind::joined);
 
 class MessageTable {
@@ -33,7 +34,7 @@ class MessageTable {
   }
 
  private:
-  /// What it subscribes has changed, if all is well.
+  /// Notifies the parts of changed subscriptions if the message was valid.
   static Status subscribed(Parts& parts, Slot slot, const Status& status) {
     if (!status) parts.subscriptions_changed(slot);
     return status;

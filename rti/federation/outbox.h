@@ -1,4 +1,4 @@
-// What waits to be said to one federate by the next flush.
+// The messages that the next flush sends to one federate.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace rink::rti {
 
-/// Messages in the order in which they were put in, apart by what they must precede: the updates of
-/// the flush stand between the two.
+/// Messages in the order in which they were put in, in two parts: the head precedes the updates of
+/// the flush, the tail follows them.
 class Outbox {
  public:
   template <class Message>
@@ -22,15 +22,15 @@ class Outbox {
   void after_updates(Message message) {
     write(tail_, message);
   }
-  /// After the updates too; an object joins the block before it if that was said in the same words.
+  /// Appends an object to the tail; it joins the block at the end if that has an equal header.
   template <class Header>
   void in_block(Header header, std::uint32_t object) {
     tail_block_.append(tail_, header, object);
   }
-  /// For who writes messages of many parts.
+  /// For writers of messages of many parts.
   std::vector<std::byte>& head() { return head_; }
   Bytes tail() const { return tail_; }
-  /// All of it is on its way.
+  /// Clears what has been sent.
   void clear() {
     head_.clear();
     tail_.clear();

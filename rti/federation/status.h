@@ -1,4 +1,4 @@
-// What becomes of a message that a federate has sent.
+// The result of handling a federate's message.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace rink::rti {
 
-/// The rule that its sender broke, which costs it the connection; nothing: all is well.
+/// The rule that the sender broke, which costs it the connection; nothing if the message is valid.
 using Status = std::optional<Violation>;
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// What a federation execution keeps of one synchronisation point.
+// A federation execution's record of one synchronisation point.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,10 @@ struct SynchronizationPoint {
   std::string label;
   std::vector<std::byte> tag;
   FederateHandle registrar;            ///< none once it has left
-  bool is_for_all = false;             ///< who joins before it is reached belongs to it
+  bool is_for_all = false;             ///< federates that join before it is reached belong to it
   std::vector<std::uint32_t> members;  ///< slots of the federates in its set
   std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
-  std::vector<FederateHandle> failed;  ///< those who said that they could not
+  std::vector<FederateHandle> failed;  ///< those that reported that they could not
 };
 
 }  // namespace rink::rti

@@ -1,5 +1,5 @@
 // How one attribute's value travels: the seam by which a user of the RTI sends values smaller than
-// his object model writes them down.
+// the object model defines them.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,14 @@
 
 namespace rink::rti {
 
-/// Codes the values of one data type on their way. Federates hand in and get values as the object
-/// model says; only what lies between is coded. Without a codec a value travels as it is.
+/// Codes the values of one data type on their way. Federates give and receive values as the object
+/// model defines them; only between them are values coded. Without a codec a value travels as it
+/// is.
 ///
-/// A coded value must end by itself and must be readable by whoever gets it and nothing else: the
-/// RTI cuts blocks, keeps the latest value and gives it to late joiners, and never decodes. So a
-/// codec depends on the value and on logical time alone, never on what was sent before or to whom,
-/// and nothing breaks when updates are left out.
+/// A coded value must show its own end and must be readable without any other: the RTI cuts blocks,
+/// keeps the latest value and gives it to late joiners, and never decodes. So a codec depends on
+/// the value and on logical time alone, never on what was sent before or to whom, and nothing
+/// breaks when updates are left out.
 class AttributeCodec {
  public:
   virtual ~AttributeCodec() = default;
@@ -29,11 +30,11 @@ class AttributeCodec {
   /// update's stamp.
   virtual void encode(Bytes value, double time, std::vector<std::byte>& coded) const = 0;
   /// Bytes of the coded value that starts `coded`; nothing if it is malformed or not all there.
-  /// What has a size need not decode.
+  /// A value with a size may still fail to decode.
   virtual std::optional<std::size_t> size(Bytes coded) const = 0;
   /// Appends the value; false if `coded`, whose size was found, is malformed. `time` [s] is that of
-  /// the newest update known when it was sent on: never before that of `encode`, and far behind it
-  /// for one who heard nothing for long.
+  /// the newest update known when it was sent on: never before that of `encode`, and much later for
+  /// a receiver without updates for long.
   virtual bool decode(Bytes coded, double time, std::vector<std::byte>& value) const = 0;
 };
 

@@ -1,5 +1,5 @@
-// The federation object model: what federates may say to each other, read from an IEEE 1516.2 OMT
-// XML file.
+// The federation object model: the classes of objects and interactions, read from an IEEE 1516.2
+// OMT XML file.
 #pragma once
 
 #include <cassert>
@@ -26,7 +26,7 @@ struct Attribute {
   std::optional<std::uint32_t> size;  ///< encoded size [bytes]; nothing if it varies
   Transportation transportation = Transportation::reliable;
   Order order = Order::receive;
-  DimensionSet dimensions;                      ///< those over which a region of it may be
+  DimensionSet dimensions;                      ///< the dimensions of its regions
   std::shared_ptr<const AttributeCodec> codec;  ///< null: values travel as they are
   std::shared_ptr<const QuantisedCodec>
       baselines;  ///< not null: periodic state, which travels as differences to acknowledged
@@ -67,20 +67,20 @@ struct Dimension {
 };
 
 /// Immutable once loaded and given its codecs; handles are indices into its arrays, equal for all
-/// who loaded an equal model.
+/// federates that loaded an equal model.
 class Fom {
  public:
   /// Throws `FileError`.
   static Fom load(const std::string& path);
   /// The same from text; `source` stands for the file's name in errors.
   static Fom parse(std::string_view xml, const std::string& source);
-  /// Several modules merged: what they repeat must be the same; classes are numbered as they first
-  /// appear.
+  /// Merges several modules: repeated definitions must be the same; classes are numbered as they
+  /// first appear.
   static Fom load(std::span<const std::string> paths);
   static Fom parse(std::span<const FomModule> modules);
 
-  /// From now on values of `data_type` travel as `codec` says. Before the model is handed to
-  /// anybody. Throws `FileError` if no attribute is of that type.
+  /// Makes values of `data_type` travel as `codec` encodes them. Call it before the model is used.
+  /// Throws `FileError` if no attribute is of that type.
   void use_codec(std::string_view data_type, const std::shared_ptr<const AttributeCodec>& codec);
 
   const std::string& name() const { return name_; }
@@ -89,12 +89,12 @@ class Fom {
   const std::vector<Dimension>& dimensions() const { return dimensions_; }
   const FomSwitches& switches() const { return switches_; }
   /// True of a class of the management object model, which every model has behind its own
-  /// (docs/rti.md, "Management"): the RTI's to speak of.
+  /// (docs/rti.md, "Management"): only the RTI sends them.
   bool is_management(ObjectClassHandle handle) const { return handle.value >= own_object_classes_; }
   bool is_management(InteractionClassHandle handle) const {
     return handle.value >= own_interaction_classes_;
   }
-  /// True of those among them that federates send, for the RTI to act upon.
+  /// True of those management interactions that federates send to the RTI.
   bool is_for_rti(InteractionClassHandle handle) const;
 
   /// Look-ups by name. A class may be named alone where that is unambiguous, or qualified from the
@@ -120,7 +120,7 @@ class Fom {
     assert(handle.value < dimensions_.size());
     return dimensions_[handle.value];
   }
-  /// The attribute of a class that is told by baselines: the first of its attributes that are
+  /// The attribute of a class that is sent by baselines: the first of its attributes that are
   /// periodic and quantised throughout.
   std::optional<AttributeHandle> periodic_attribute(ObjectClassHandle handle) const;
   /// All attributes of a class.
@@ -138,9 +138,9 @@ class Fom {
   Bytes value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute,
               Bytes values) const;
 
-  /// Of what matters to a conversation: names, order, types, sizes, dimensions, codecs, switches;
-  /// not of comments, layout, semantics or the management object model, which is always the same.
-  /// FNV-1a.
+  /// The FNV-1a hash of what both ends must agree on: names, order, types, sizes, dimensions,
+  /// codecs, switches; not comments, layout, semantics or the management object model, which is
+  /// always the same.
   std::uint64_t hash() const { return hash_; }
   /// Asserts that classes come after those that they inherit from, begin with their members, and
   /// have no more attributes than a set has room for.

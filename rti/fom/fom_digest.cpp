@@ -36,7 +36,7 @@ std::string path_of(const std::vector<Class>& classes, std::size_t index) {
   return path;
 }
 
-/// What an inherited member is, its first owner says.
+/// An inherited member is described by the class that defines it.
 template <class Class, class Members>
 std::size_t inherited_count(const std::vector<Class>& classes, const Class& each, Members members) {
   return each.parent ? (classes[each.parent.value].*members).size() : 0;

@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// Hashes (FNV-1a, 32 bits) of an element's name and of what matters of it to a conversation.
+/// Hashes (FNV-1a, 32 bits) of an element's name and of its content that both ends must agree on.
 struct FomDigestEntry {
   std::uint32_t name = 0, content = 0;
   friend auto operator<=>(const FomDigestEntry&, const FomDigestEntry&) = default;
@@ -19,8 +19,8 @@ struct FomDigestEntry {
 
 /// Classes, their own attributes or parameters, and dimensions, in the model's order.
 std::vector<FomDigestEntry> digest(const Fom& fom);
-/// How `own` differs from the model that `other` is of: "attribute 'speed' of object class 'Vessel'
-/// differs (and 2 more)". Empty if it does not.
+/// Describes how `own` differs from the model whose digest is `other`: "attribute 'speed' of object
+/// class 'Vessel' differs (and 2 more)". Empty if it does not.
 std::string difference(const Fom& own, std::span<const FomDigestEntry> other);
 
 }  // namespace rink::rti

@@ -10,10 +10,10 @@
 
 namespace rink::rti {
 
-/// By name they throw NameNotFound, for handles of nothing ObjectClassNotDefined,
+/// Look-ups by name throw NameNotFound; those by handle throw ObjectClassNotDefined,
 /// AttributeNotDefined, InteractionClassNotDefined, InteractionParameterNotDefined,
-/// InvalidDimensionHandle. Class names may stand alone where that is unambiguous, and are told
-/// qualified.
+/// InvalidDimensionHandle. A class name may be given unqualified where that is unambiguous; names
+/// returned are qualified.
 class FomLookup {
  public:
   /// Must outlive it.

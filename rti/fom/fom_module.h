@@ -1,5 +1,4 @@
-// The text of one module of a federation object model, and the error that names what is wrong with
-// one.
+// The text of one module of a federation object model, and the error of a faulty one.
 #pragma once
 
 #include <stdexcept>

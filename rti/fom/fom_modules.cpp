@@ -25,7 +25,7 @@ std::string words_of(const char* text) {
   return all;
 }
 
-/// What a definition consists of; what it means to readers is not compared.
+/// The parts of a definition that are compared; semantics for readers are not.
 std::vector<Node> parts_of(const Node& node) {
   std::vector<Node> parts;
   for (const Node& child : node.children())
@@ -34,8 +34,7 @@ std::vector<Node> parts_of(const Node& node) {
   return parts;
 }
 
-/// The first part of `b` that says something else than in `a`; `b` itself if it has fewer or other
-/// parts.
+/// The first part of `b` that differs from that of `a`; `b` itself if it has fewer or other parts.
 std::optional<Node> difference(const Node& a, const Node& b) {
   const std::vector<Node> in_a = parts_of(a), in_b = parts_of(b);
   if (in_a.empty() && in_b.empty())

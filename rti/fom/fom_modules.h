@@ -12,9 +12,9 @@
 
 namespace rink::rti {
 
-/// Definitions may be repeated if they say the same, semantics aside; a class may be named without
-/// a content of its own to hang subclasses on it (scaffolding). All else is a conflict, an
-/// InconsistentFDD that names both places.
+/// Definitions may be repeated if they agree, semantics aside; a class may be named without content
+/// to define subclasses of it (scaffolding). All else is a conflict, an InconsistentFDD that names
+/// both places.
 class FomModules {
  public:
   using Node = pugi::xml_node;
@@ -38,15 +38,15 @@ class FomModules {
   std::string text_or(const Node& node, const char* child, const char* otherwise) const {
     return node.child(child) ? text(node, child) : otherwise;
   }
-  /// All that the parents call `element`, by name, in the order of their first appearance. Throws
+  /// All children `element` of the parents, by name, in the order of their first appearance. Throws
   /// if one parent has two of a name.
   std::vector<Group> groups(std::span<const Node> parents, const char* element) const;
-  /// The children of each model that are called so.
+  /// The children of that name in each model.
   std::vector<Node> sections(const char* element) const;
-  /// Throws InconsistentFDD unless both say the same; `of` stands behind the element's name, as "
-  /// of class 'Vessel'".
+  /// Throws InconsistentFDD unless both agree; `of` follows the element's name, as " of class
+  /// 'Vessel'".
   void require_same(const Node& first, const Node& second, const std::string& of) const;
-  /// The same for one child, which either may lack.
+  /// Compares one child, which either may lack.
   void require_same_child(const Node& first, const Node& second, const char* child) const;
   [[noreturn]] void conflict(const Node& here, const std::string& what, const Node& there) const;
   /// Throws if a module that is not the standard's defines a name of the standard's: those that

@@ -1,4 +1,4 @@
-// Reads IEEE 1516.2 OMT XML modules into one model; every complaint names file, line and element.
+// Reads IEEE 1516.2 OMT XML modules into one model; every error names file, line and element.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -192,8 +192,7 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
   return attribute;
 }
 
-/// State that is told periodically travels as differences to baselines, unless some of it is not
-/// quantised.
+/// Periodic state travels as differences to baselines, unless some of it is not quantised.
 void FomReader::quantise(Attribute& attribute, bool is_periodic) {
   if (!attribute.size) return;
   const auto known = codecs_.find(attribute.data_type);

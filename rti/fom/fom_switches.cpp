@@ -21,11 +21,11 @@ constexpr std::array known_switches = {
     Switch{"objectClassRelevanceAdvisory", &FomSwitches::object_class_relevance_advisory},
     Switch{"interactionRelevanceAdvisory", &FomSwitches::interaction_relevance_advisory},
 };
-/// Those that may only be off: the regions of updates and interactions are not told, services and
-/// exceptions are not reported, subscriptions are not judged late.
+/// Switches that may only be off: the RTI does not convey regions of updates and interactions, does
+/// not report services and exceptions, and has no delayed evaluation of subscriptions.
 constexpr std::array never_on = {"conveyRegionDesignatorSets", "serviceReporting",
                                  "exceptionReporting", "delaySubscriptionEvaluation"};
-/// May only be on: the sender of an interaction is always told.
+/// This switch may only be on: the sender of an interaction is always conveyed.
 constexpr const char* always_on = "conveyProducingFederate";
 constexpr std::array resign_actions = {
     "UnconditionallyDivestAttributes",    "DeleteObjects",
@@ -62,8 +62,7 @@ void read_switch(const FomModules& modules, const pugi::xml_node& node, FomSwitc
     if (!is_on)
       modules.fail(
           node,
-          "<" + name +
-              "> can't be disabled: whoever receives an interaction is always told its sender");
+          "<" + name + "> can't be disabled: receivers of an interaction always learn its sender");
     return;
   }
   if (std::ranges::find(never_on, name) == never_on.end())

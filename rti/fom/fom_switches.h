@@ -10,15 +10,15 @@ namespace rink::rti {
 
 class FomModules;
 
-/// What a model leaves out is as it is here. The advisories are those of each federate when it
-/// joins, which its own services switch from then on.
+/// The values here are those of a model without a table of switches. The advisories are those of
+/// each federate when it joins, which its own services switch from then on.
 struct FomSwitches {
   bool auto_provide = false;  ///< owners are asked for values whenever an object is discovered
   bool attribute_scope_advisory = true, attribute_relevance_advisory = false,
        object_class_relevance_advisory = true, interaction_relevance_advisory = true;
   ResignAction automatic_resign_action = ResignAction::cancel_then_delete_then_divest;
   friend bool operator==(const FomSwitches&, const FomSwitches&) = default;
-  /// In one word, for the hash; empty if nothing differs from the above.
+  /// The table as one text, for the hash; empty if nothing differs from the above.
   std::string text() const;
 };
 

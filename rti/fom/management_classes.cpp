@@ -1,4 +1,4 @@
-// Two tables and how they become classes.
+// Makes classes of two tables.
 #include "rti/fom/management_classes.h"
 
 #include <algorithm>
@@ -146,8 +146,9 @@ void append_management_classes(std::vector<ObjectClass>& object_classes,
       append(object_classes, root_of(object_classes, "HLAobjectRoot"), "HLAmanager", {});
   append(object_classes, manager, "HLAfederation", federation_attributes);
   append(object_classes, manager, "HLAfederate", federate_attributes);
-  std::array<InteractionClassHandle, 5> path{root_of(
-      interaction_classes, "HLAinteractionRoot")};  // by depth + 1: the class that others hang on
+  std::array<InteractionClassHandle, 5> path{
+      root_of(interaction_classes, "HLAinteractionRoot")};  // by depth + 1: the superclass of those
+                                                            // that follow
   for (const Interaction& each : interactions) {
     const auto depth = static_cast<std::size_t>(each.depth);
     path[depth + 1] = append(interaction_classes, path[depth], each);

@@ -8,9 +8,9 @@
 
 namespace rink::rti {
 
-/// What the RTI truly knows, by the standard's names; docs/rti.md, "Management", says what each
-/// value is. Hangs them on the roots, which are added where a model lacks them. They stand behind
-/// all others, so that a model's own numbers stay what they are.
+/// Only attributes that the RTI has values for, by the standard's names; docs/rti.md, "Management",
+/// describes each value. Adds them below the roots, which are added where a model lacks them. They
+/// follow all other classes, so that the numbers of a model's own classes stay.
 void append_management_classes(std::vector<ObjectClass>& object_classes,
                                std::vector<InteractionClass>& interaction_classes);
 

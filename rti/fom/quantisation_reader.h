@@ -1,4 +1,4 @@
-// What an object model says of the resolution of its data types.
+// Reads the resolution of data types from an object model.
 #pragma once
 
 #include <memory>

@@ -41,7 +41,7 @@ class QuantisedCodec : public AttributeCodec {
   std::span<const QuantisedField> fields() const { return fields_; }
   /// True if every field has a grid, so that counts alone tell a value.
   bool is_all_quantised() const { return is_all_quantised_; }
-  /// Bits of a value whose fields are in range, with the first one that says so.
+  /// Bits of a value whose fields are in range, with the first one that marks it.
   std::size_t packed_bits() const { return packed_bits_; }
   /// Bits of the coded value that starts with `is_full`.
   std::size_t coded_bits(bool is_full) const {
@@ -69,7 +69,7 @@ class QuantisedCodec : public AttributeCodec {
 
   std::string name() const override;
   void encode(Bytes value, double time, std::vector<std::byte>& coded) const override;
-  /// Looks at the counts too, so that who forwards a value knows that it can be decoded.
+  /// Checks the counts too, so that a forwarded value can be decoded.
   std::optional<std::size_t> size(Bytes coded) const override;
   bool decode(Bytes coded, double time, std::vector<std::byte>& value) const override;
 

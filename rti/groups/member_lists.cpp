@@ -1,4 +1,4 @@
-// Lists, searched only by those who come and go.
+// Keeps the member lists; only joining and leaving search them.
 #include "rti/groups/member_lists.h"
 
 #include <algorithm>

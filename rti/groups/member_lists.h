@@ -7,8 +7,8 @@
 
 namespace rink::rti {
 
-/// A list for each group, in the order of joining, handed out as it is; only a sender that belongs
-/// to the group itself costs a copy without it.
+/// A list for each group, in the order of joining. It is returned without a copy unless the sender
+/// is itself a member.
 class MemberLists final : public GroupCommunication {
  public:
   void join(std::uint32_t group, std::uint32_t federate) override;
@@ -19,7 +19,7 @@ class MemberLists final : public GroupCommunication {
 
  private:
   std::vector<std::vector<std::uint32_t>> members_;  ///< by group
-  std::vector<std::uint32_t> others_;  ///< of the sender at hand, if it belongs to the group itself
+  std::vector<std::uint32_t> others_;  ///< the receivers for a sender that is a member
 };
 
 }  // namespace rink::rti

@@ -1,5 +1,5 @@
-// What a federation execution knows of itself and its federates, as the management object model of
-// IEEE 1516.1-2010, clause 11, names it.
+// A report of a federation execution and its federates, in the terms of the management object model
+// of IEEE 1516.1-2010, clause 11.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// Of one federate, counted by the RTI since it joined; "sent" and "received" are seen from the
+/// The RTI's counts of one federate since it joined; "sent" and "received" are seen from the
 /// federate.
 struct FederateCounts {
   std::uint64_t updates_sent = 0, reflections_received = 0;  ///< objects, not attributes
@@ -22,7 +22,7 @@ struct FederateCounts {
   std::uint8_t is_time_regulating = 0, is_time_constrained = 0;
   double logical_time = 0.0;    ///< [s]; 0 while it neither regulates nor is constrained
   double earliest_stamp = 0.0;  ///< the least that it may still use [s]; 0 unless it regulates
-  double silence_s = 0.0;       ///< since something was heard of it
+  double silence_s = 0.0;       ///< since the federate last sent anything
   friend bool operator==(const FederateCounts&, const FederateCounts&) = default;
 };
 

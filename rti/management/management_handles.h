@@ -8,8 +8,8 @@
 
 namespace rink::rti {
 
-/// Handles of nothing where the model brings management classes of its own, by a module of the
-/// standard's: then the RTI tells nothing by objects.
+/// The handles are empty where a module of the standard's gives the model management classes of its
+/// own: then the RTI registers no objects.
 struct ManagementHandles {
   ObjectClassHandle federation, federate;
   InteractionClassHandle set_timing, set_switches, request_publications, request_subscriptions,

@@ -15,13 +15,13 @@
 
 namespace rink::rti {
 
-/// Appends values as the standard encodes them, big-endian; one of varying size behind its length
-/// [bytes], a little-endian u32, as all that travel here.
+/// Appends values as the standard encodes them, big-endian; one of varying size follows its length
+/// [bytes], a little-endian u32, as everywhere on the wire.
 class ManagementWriter {
  public:
   explicit ManagementWriter(std::vector<std::byte>& bytes) : bytes_(bytes) {}
 
-  /// HLAcount, HLAseconds and HLAboolean: HLAinteger32BE; what is too great for it is its greatest.
+  /// HLAcount, HLAseconds and HLAboolean: HLAinteger32BE; greater values are clamped.
   void count(std::uint64_t value) {
     constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();
     big_endian(value < most ? value : most, 4);
@@ -51,8 +51,8 @@ class ManagementWriter {
   std::vector<std::byte>& bytes_;
 };
 
-/// Reads them one after the other. What is cut short reads as zeros and empty texts, and is no
-/// longer `is_whole`.
+/// Reads values one after the other. Values that are cut short read as zeros and empty texts, and
+/// clear `is_whole`.
 class ManagementReader {
  public:
   explicit ManagementReader(Bytes bytes) : reader_(bytes) {}

@@ -1,4 +1,4 @@
-// Which of two values of an object was said later, when they came by different ways.
+// Which of two values of an object was sent later, when they came by different channels.
 #pragma once
 
 #include <cassert>
@@ -13,8 +13,8 @@
 
 namespace rink::rti {
 
-/// Of each object in scope that has best-effort attributes, the order (rti/wire/datagram.h) of the
-/// newest value of each. Other objects cost nothing.
+/// The order (rti/wire/datagram.h) of the newest value of each best-effort attribute of objects in
+/// scope. Other objects cost nothing.
 class ArrivalOrder {
  public:
   explicit ArrivalOrder(const Fom& fom) {
@@ -32,7 +32,7 @@ class ArrivalOrder {
   bool has_best_effort() const { return stride_ > 0; }
   bool contains(ObjectHandle object) const { return places_.find(object) != nullptr; }
 
-  /// From now on everything older than `order` is.
+  /// Adds an object: values older than `order` are out of date from now on.
   void enter(ObjectHandle object, std::uint16_t object_class, std::uint64_t order) {
     if (best_effort_[object_class].is_empty()) return;
     std::uint32_t* place = places_.find(object);
@@ -57,8 +57,8 @@ class ArrivalOrder {
     for (const std::uint32_t place : free_) take(place);
     assert(places_.size() + free_.size() == is_taken.size());
   }
-  /// Notes that values of `set` were said at `order`, and returns those that are not older than
-  /// what is known; none of an object that is not in scope.
+  /// Notes values of `set` that were sent at `order`, and returns the attributes whose values are
+  /// not older than the known ones; none for an object that is not in scope.
   AttributeSet accept(ObjectHandle object, std::uint16_t object_class, AttributeSet set,
                       std::uint64_t order) {
     const std::uint32_t* place = places_.find(object);

@@ -9,8 +9,8 @@
 
 namespace rink::rti {
 
-/// Numbers never inserted cost nothing to ask for. Memory is one bit per number up to the greatest
-/// inserted.
+/// Looking up numbers beyond the greatest inserted is allowed. Memory is one bit per number up to
+/// the greatest inserted.
 class Bitmap {
  public:
   void insert(std::uint32_t number) {
@@ -34,7 +34,7 @@ class Bitmap {
   /// 64 numbers at once, from 64 * `index` on.
   std::uint64_t word(std::size_t index) const { return index < words_.size() ? words_[index] : 0; }
   std::size_t word_count() const { return words_.size(); }
-  /// Tells the processor that the first 512 are about to be asked for.
+  /// Prefetches the first 512 numbers.
   void prefetch() const { __builtin_prefetch(words_.data()); }
   void clear() { words_.assign(words_.size(), 0); }
 
@@ -48,8 +48,8 @@ class Bitmap {
   }
 
   /// Calls `visit(number)` for each member from `first` on, then for those below it, until it
-  /// returns false. Returns the number for which it did, 0 if it never did: who goes on from there
-  /// next time starves nobody. `visit` may erase members.
+  /// returns false. Returns the number for which it did, 0 if it never did; continuing from there
+  /// the next time treats all members fairly. `visit` may erase members.
   template <class Visit>
   std::uint32_t visit_from(std::uint32_t first, Visit visit) const {
     std::optional<std::uint32_t> stop;

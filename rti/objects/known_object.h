@@ -1,4 +1,4 @@
-// What a federate keeps of each object that it registered or discovered.
+// A federate's record of each object that it registered or discovered.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@ namespace rink::rti {
 struct KnownObject {
   static constexpr std::uint16_t unknown = 0xffff;
   std::uint16_t object_class = unknown;
-  bool is_own = false;  ///< every attribute of it; who owns some has a holding
+  bool is_own = false;  ///< owns every attribute of it; an object owned in part has a holding
 };
 
-/// One of others that was deleted or forgotten here.
+/// An object of another federate that was deleted or forgotten here.
 struct GoneObject {
   ObjectHandle object;
-  bool is_settled = false;  ///< the RTI has heard so, too
+  bool is_settled = false;  ///< the RTI knows it, too
 };
 
-/// A deletion in time-stamp order, which may be taken back.
+/// A deletion in time-stamp order, which may be retracted.
 struct TimedDeletion {
   std::uint64_t number = 0;
   std::uint32_t object = 0;

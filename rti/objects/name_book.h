@@ -1,4 +1,4 @@
-// The names of object instances as one federate knows them: reserved, given, heard.
+// The names of object instances that one federate has reserved, given or received.
 #pragma once
 
 #include <functional>
@@ -53,8 +53,7 @@ class NameBook {
     const std::string* name = names_.find(object);
     return name != nullptr ? *name : default_name(object);
   }
-  /// Of a name of its own, or of one that follows from its handle; whether there is such an object
-  /// is the caller's to know.
+  /// The object of a given or default name; the caller checks that a default name's object exists.
   std::optional<ObjectHandle> find(std::string_view name) const {
     if (const auto found = objects_.find(name); found != objects_.end()) return found->second;
     const std::string_view start = "HLAobject ";

@@ -1,5 +1,5 @@
-// A map from object handles to small values whose memory follows what is in it, not the greatest
-// handle.
+// A map from object handles to small values, with memory for its elements alone, not for all
+// handles up to the greatest.
 #pragma once
 
 #include <bit>
@@ -48,8 +48,8 @@ class ObjectMap {
   void erase(ObjectHandle object) {
     if (find(object) == nullptr) return;
     std::size_t hole = place_of(object.value);
-    // Whatever would no longer be found because the probe from its home ends at the hole moves into
-    // it (Knuth, volume 3, 6.4, algorithm R).
+    // An element that a probe would no longer find, since the probe ends at the hole, moves into
+    // the hole (Knuth, volume 3, 6.4, algorithm R).
     for (std::size_t at = next(hole); slots_[at].key != nobody; at = next(at)) {
       const std::size_t from_home = (at - home_of(slots_[at].key)) & mask(),
                         from_hole = (at - hole) & mask();

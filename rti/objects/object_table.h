@@ -14,8 +14,7 @@ namespace rink::rti {
 /// Index into the table; used again some time after the object is gone.
 using ObjectSlot = std::uint32_t;
 inline constexpr ObjectSlot no_object = 0xffffffffu;
-inline constexpr std::uint32_t no_federate =
-    0xffffffffu;  ///< where a federate's slot may stand for nobody
+inline constexpr std::uint32_t no_federate = 0xffffffffu;  ///< in place of a federate's slot: none
 
 struct Object {
   ObjectHandle handle;
@@ -25,24 +24,24 @@ struct Object {
   std::uint32_t negotiation = no_negotiation;  ///< the ownership's record, if it has one
   std::uint16_t object_class = 0;
   bool is_alive = false;
-  bool is_leaving = false;  ///< deleted at a logical time that some have not reached: nobody
-                            ///< discovers it any more
+  bool is_leaving = false;  ///< deleted at a logical time that some have not reached: not
+                            ///< discovered any more
   AttributeSet valued;      ///< attributes that have a value
   std::string name;
   std::vector<std::byte> fixed;  ///< coded values of fixed size, at the class's offsets
   std::vector<std::vector<std::byte>> varying;  ///< coded values of varying size, by attribute
 };
 
-/// Latest values serve late joiners and those who come into scope; storing one touches one object
-/// only.
+/// Latest values serve federates that join late or get an object into scope; storing one touches
+/// one object only.
 class ObjectTable {
  public:
   explicit ObjectTable(const Fom& fom);
 
   ObjectSlot insert(ObjectHandle handle, std::uint32_t owner, std::uint16_t object_class,
                     std::string_view name);
-  /// The slot is kept until `recycle`, so that what was said of the object this tick can still be
-  /// told from what a new one says.
+  /// Keeps the slot until `recycle`, so that this tick's messages about the object cannot be taken
+  /// for those about a new one.
   void erase(ObjectSlot slot);
   void recycle();
 
@@ -51,15 +50,15 @@ class ObjectTable {
   const Object& operator[](ObjectSlot slot) const { return objects_[slot]; }
   ObjectSlot slot_count() const { return static_cast<ObjectSlot>(objects_.size()); }
   std::size_t size() const { return size_; }
-  /// True if an object of this handle is or was here; handles are not used twice.
+  /// True if an object of this handle exists or existed; handles are not used twice.
   bool was_registered(ObjectHandle handle) const;
-  /// The handle is used up without an object.
+  /// Uses the handle up without an object.
   void pass_over(ObjectHandle handle);
   /// Living objects whose handles are in `block`.
   std::uint32_t alive_in(std::uint32_t block) const {
     return block < blocks_.size() ? blocks_[block].alive : 0;
   }
-  /// No more objects come in `block`: its memory goes with the last of them.
+  /// No more objects will be registered in `block`: its memory is freed with the last of them.
   void close_block(std::uint32_t block);
   /// Calls `visit(slot)` for each living object whose handle is in `block`.
   template <class Visit>
@@ -74,7 +73,7 @@ class ObjectTable {
   void store(ObjectSlot slot, AttributeSet set, Bytes coded);
   /// Appends the coded values of `set`, all of which must be valued.
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
-  /// How many bytes that would append.
+  /// The bytes that `append` would append.
   std::size_t size_of(ObjectSlot slot, AttributeSet set) const;
   /// Asserts that handles and slots lead to each other, that each slot is alive, leaving or free,
   /// and that counts are right.
@@ -82,7 +81,7 @@ class ObjectTable {
 
  private:
   struct Block {
-    std::vector<ObjectSlot> slots;  ///< by number; no_object where there is none, any more or yet
+    std::vector<ObjectSlot> slots;  ///< by number; no_object where none exists now
     std::uint32_t registered = 0;   ///< numbers below were used; they come in order
     std::uint32_t alive = 0;
     bool is_closed = false;

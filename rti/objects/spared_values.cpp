@@ -1,4 +1,4 @@
-// Values kept back, object by object.
+// Keeps values back, object by object.
 #include "rti/objects/spared_values.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The newest values of own objects that nobody hears: kept back here instead of being sent, until
-// somebody does.
+// The newest values of own objects to which nobody subscribes: kept here instead of being sent,
+// until somebody does.
 #pragma once
 
 #include <cassert>
@@ -11,16 +11,15 @@
 
 namespace rink::rti {
 
-/// Per object the newest value of each attribute that was kept back, so that a late listener gets
+/// Per object the newest value of each attribute that was kept back, so that a late subscriber gets
 /// the state as if every update had been sent. Values are as the federate gave them; they are coded
-/// when they are sent, each by the time at which it was said. Nothing is allocated for a value that
-/// is replaced by one no longer.
+/// when they are sent, each by the time of its update. Replacing a value by one that is not longer
+/// allocates nothing.
 class SparedValues {
  public:
   explicit SparedValues(const Fom& fom) : fom_(fom), in_class_(fom.object_classes().size()) {}
 
-  /// Attributes of the class that some object may have values of here: the bit test before each
-  /// update.
+  /// Attributes of the class that may have values here: the quick test before each update.
   AttributeSet in_class(ObjectClassHandle object_class) const {
     assert(object_class.value < in_class_.size());
     return in_class_[object_class.value].attributes;
@@ -38,7 +37,7 @@ class SparedValues {
   /// announced.
   Spared& keep(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes,
                Bytes values, double time);
-  /// Values of `attributes` were sent by other ways, or are no longer wanted.
+  /// Forgets values of `attributes`, which were sent otherwise or are no longer wanted.
   void forget(ObjectHandle object, AttributeSet attributes = AttributeSet(~0u));
   const Spared* find(ObjectHandle object) const { return objects_.find(object); }
   /// The objects of a class, or of all, that have values of `attributes` here, in ascending order.

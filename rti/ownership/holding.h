@@ -1,4 +1,4 @@
-// What a federate's side knows of its part in one object's ownership.
+// A federate's own record of its part in one object's ownership.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@
 
 namespace rink::rti {
 
-/// True if what a federate owns whole ends with it.
+/// True if objects that a federate owns whole are deleted when it leaves.
 constexpr bool deletes(ResignAction action) {
   return action == ResignAction::delete_objects ||
          action == ResignAction::delete_objects_then_divest ||
          action == ResignAction::cancel_then_delete_then_divest;
 }
 
-/// Kept only while a federate owns some but not all of an object, or negotiates about it. What it
-/// gave up by its own word it holds no longer, whatever the RTI answers; should nobody have taken
-/// it after all, the RTI gives it back.
+/// Kept only while a federate owns some but not all of an object, or negotiates about it.
+/// Attributes that it asked to give up it holds no longer, whatever the RTI answers; if no federate
+/// took them after all, the RTI gives them back.
 struct Holding {
   AttributeSet owned;
   AttributeSet offered;      ///< negotiated divestiture under way

@@ -43,7 +43,7 @@ AttributeSet Ownership::owned_by(std::uint32_t federate, ObjectSlot object) cons
 
 AttributeSet Ownership::unowned(ObjectSlot object) const {
   if (objects_[object].owner != no_federate) return {};
-  assert(find(object) != nullptr);  // who owns what is in its record
+  assert(find(object) != nullptr);  // the record has the owner of each attribute
   return all(object).without(union_of(find(object)->shares));
 }
 
@@ -147,7 +147,7 @@ void Ownership::check(const Record& record) const {
     owned = owned | each.attributes;
   }
   assert(all(record.object).includes(owned));
-  assert(owned.includes(record.offered));  // what is unowned is not offered and has no claim
+  assert(owned.includes(record.offered));  // an unowned attribute is not offered and has no claim
   assert(owned.includes(wanted));
   assert(record.confirming == (record.offered & wanted));
   for ([[maybe_unused]] const Claim& each : record.claims) {
@@ -165,8 +165,8 @@ void Ownership::notify_owners(Kind kind, const Record& record, AttributeSet attr
   for (const Share& each : record.shares) notify(kind, each.federate, each.attributes & attributes);
 }
 
-/// Takes them from whoever owns them and gives them to `to`, if that is anybody. Who still wants
-/// them now asks the new owner.
+/// Moves the attributes from their owners to `to`, which may be no_federate. Remaining claims are
+/// requests to the new owner.
 void Ownership::transfer(Record& record, AttributeSet attributes, std::uint32_t to) {
   for (Share& each : record.shares) each.attributes = each.attributes.without(attributes);
   std::erase_if(record.shares, [](const Share& each) { return each.attributes.is_empty(); });
@@ -184,7 +184,7 @@ void Ownership::transfer(Record& record, AttributeSet attributes, std::uint32_t 
   notify(Kind::release_requested, to, union_of(record.claims) & attributes);
 }
 
-/// Each of `attributes` goes to the first who claims it. Returns those that went.
+/// Gives each of `attributes` to its first claimant. Returns those that were given.
 AttributeSet Ownership::give_to_claimants(Record& record, AttributeSet attributes) {
   AttributeSet given;
   for (std::size_t first = 0; first < record.claims.size();) {
@@ -200,7 +200,7 @@ AttributeSet Ownership::give_to_claimants(Record& record, AttributeSet attribute
   return given;
 }
 
-/// The claims to `attributes` end without success; regular ones only if told so.
+/// Ends the claims to `attributes` without success; regular ones only if `also_regular`.
 void Ownership::end_claims(Record& record, AttributeSet attributes, bool also_regular) {
   for (Claim& each : record.claims) {
     if (!also_regular && !each.is_if_available) continue;
@@ -277,7 +277,7 @@ Ownership::Events Ownership::acquire(std::uint32_t federate, ObjectSlot object,
   attributes = attributes.without(owned_by(federate, object));
   for (Claim& each : record.claims) {
     if (each.federate != federate) continue;
-    // A regular wish takes the place of one if available; asking twice is asking once.
+    // A regular claim replaces one if available; a repeated request counts once.
     if (each.is_if_available) each.attributes = each.attributes.without(attributes);
     else attributes = attributes.without(each.attributes);
   }

@@ -1,5 +1,5 @@
-// Who owns which attribute of which object, who gives it up and who wants it: clause 7 of IEEE
-// 1516.1-2010 as one state machine, without messages.
+// The owner of each attribute of each object, offers and claims: clause 7 of IEEE 1516.1-2010 as
+// one state machine, without messages.
 #pragma once
 
 #include <cassert>
@@ -12,44 +12,44 @@
 
 namespace rink::rti {
 
-/// What some federate must be told. Views are valid until the ownership's next operation.
+/// A notice that some federate must get. Views are valid until the next operation.
 struct OwnershipEvent {
   enum class Kind : std::uint8_t {
     acquired,                ///< it owns these now
-    unavailable,             ///< its wish for these has ended without them
-    cancelled,               ///< its wish for these has ended as it asked
-    release_requested,       ///< it owns these and somebody wants them
-    confirmation_requested,  ///< it offers these and somebody takes them: it may confirm
-    offered,  ///< these look for an owner; `federate` is no_federate: whoever may own them is to be
-              ///< told
+    unavailable,             ///< its claim to these has ended without success
+    cancelled,               ///< its claim to these has ended as it asked
+    release_requested,       ///< it owns these and another federate wants them
+    confirmation_requested,  ///< it offers these and another federate wants them: it may confirm
+    offered,  ///< these need an owner; `federate` is no_federate: notify all that may own them
   };
   Kind kind;
   std::uint32_t federate;   ///< its slot
   AttributeSet attributes;  ///< never empty
 };
 
-/// The RTI's ledger. An object whose attributes all belong to one federate and about which nobody
-/// negotiates is nothing but `Object::owner`; only the others have a record, so objects that never
-/// change hands cost one comparison. All operations take sets, so that a body of many attributes is
-/// handed over at the price of one.
+/// The RTI's record of ownership. An object whose attributes all belong to one federate, with no
+/// negotiation about them, has only `Object::owner`; only other objects have a record, so those
+/// that never change owners cost one comparison. All operations take sets, so a handover of many
+/// attributes costs as much as one of one.
 ///
 /// An attribute is unowned, or owned and then possibly *offered* (negotiated divestiture), of which
 /// *confirming* (somebody takes it, its owner was asked to confirm). Each may have any number of
 /// claims in the order in which they came: regular ones wait until they are met, denied or
 /// cancelled; those *if available* only while the attribute is offered. Invariants: an unowned
 /// attribute is not offered and has no claim; an offered one is confirming if and only if it has
-/// one; one that is not offered has no claim if available. A federate loses an attribute by its own
-/// word only.
+/// one; one that is not offered has no claim if available. A federate loses an attribute only by
+/// its own request or consent.
 class Ownership {
  public:
   using Events = std::span<const OwnershipEvent>;
   Ownership(const Fom& fom, ObjectTable& objects) : fom_(fom), objects_(objects) {}
 
-  /// All that can be owned of an object: its class's attributes and the privilege to delete it.
+  /// All that can be owned of an object: the attributes of its class and the privilege to delete
+  /// it.
   AttributeSet all(ObjectSlot object) const;
   AttributeSet owned_by(std::uint32_t federate, ObjectSlot object) const;
   AttributeSet unowned(ObjectSlot object) const;
-  /// Owned by anybody but `federate`.
+  /// The attributes that federates other than `federate` own.
   AttributeSet owned_by_others(std::uint32_t federate, ObjectSlot object) const;
   /// The owner of one attribute, or no_federate.
   std::uint32_t owner_of(ObjectSlot object, AttributeHandle attribute) const;
@@ -61,30 +61,31 @@ class Ownership {
     for (const Share& each : record->shares) visit(each.federate);
   }
   AttributeSet offered(ObjectSlot object) const;
-  /// Of those: whose owner was asked to confirm, since somebody takes them.
+  /// Of the offered attributes, those whose owner was asked to confirm, since another federate
+  /// wants them.
   AttributeSet confirming(ObjectSlot object) const;
-  /// What `federate` waits for, by either kind of acquisition.
+  /// The attributes that `federate` waits for, by either kind of acquisition.
   AttributeSet sought_by(std::uint32_t federate, ObjectSlot object) const;
   /// The tag of the latest offer of this object.
   Bytes offer_tag(ObjectSlot object) const;
 
-  /// Operations of an owner on what it owns; what it doesn't own must have been left out.
+  /// Operations of an owner; `attributes` must have no others than it owns.
   Events divest(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
   Events offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes, Bytes tag);
   Events withdraw_offer(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
   Events deny_release(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
-  /// Gives those that somebody wants to who asked first; the others stay where they are.
-  /// Confirmation and divestiture if wanted are both this.
+  /// Gives each wanted attribute to the federate that asked first; the others stay. Both a
+  /// confirmation and a divestiture if wanted do this.
   Events give(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
 
-  /// Operations of one who wants to own; what it owns is left out here.
+  /// Operations of a claimant; attributes that it owns are left out here.
   Events acquire(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
   Events acquire_if_available(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
   Events cancel(std::uint32_t federate, ObjectSlot object, AttributeSet attributes);
 
-  /// Its wishes end, of which it isn't told.
+  /// Ends the federate's claims without a notice to it.
   void forget_claims(std::uint32_t federate);
-  /// Before the object is erased.
+  /// Call it before the object is erased.
   void forget(ObjectSlot object);
 
   /// Calls `visit(object)` for each object that is divided or negotiated about. `visit` must not

@@ -29,8 +29,8 @@ ConservativeTime::Clock& ConservativeTime::clock(std::uint32_t federate) {
 bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahead) {
   Clock& mine = clock(federate);
   if (mine.is_regulating || mine.is_advancing || !is_valid_lookahead(lookahead)) return false;
-  // Nothing that it will say may be in anybody's past: its time becomes one from which that holds,
-  // at once, so that the others can't run away from it meanwhile.
+  // No message of a newly regulating federate may be in another's past: its time moves at once to
+  // one from which that holds, so that the others cannot advance beyond it meanwhile.
   double past = 0.0, horizon = 0.0;
   for (const Clock& other : clocks_) {
     if (&other == &mine || !other.is_constrained) continue;
@@ -41,9 +41,9 @@ bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahea
   mine.lookahead = lookahead;
   mine.enabling = std::max(mine.time, past - lookahead);
   if (mine.is_constrained)
-    horizon = std::max(
-        horizon,
-        mine.horizon);  // else somebody could answer it at an instant of which it has heard all
+    horizon =
+        std::max(horizon,
+                 mine.horizon);  // else another could answer at an instant that is complete for it
   mine.floor = std::max(horizon, mine.enabling + lookahead);
   assert(mine.enabling >= mine.time && mine.floor >= mine.enabling);
   weigh(federate);
@@ -81,8 +81,8 @@ bool ConservativeTime::modify_lookahead(std::uint32_t federate, double lookahead
     return false;
   mine.lookahead = lookahead;
   mine.floor =
-      std::max(mine.floor, mine.time + lookahead);  // what was promised stays promised: a shorter
-                                                    // lookahead comes about as its time advances
+      std::max(mine.floor, mine.time + lookahead);  // an earlier promise holds: a shorter lookahead
+                                                    // takes effect as its time advances
   weigh(federate);
   return true;
 }
@@ -141,7 +141,7 @@ void ConservativeTime::withdraw(std::uint32_t federate, const TimedEntry& entry)
   if (awaits_message(clock(federate))) weigh(federate);
 }
 
-/// The time that a federate would be granted if nobody sent to it meanwhile.
+/// The time that a federate would be granted if no message came meanwhile.
 double ConservativeTime::goal(const Clock& clock) {
   assert(clock.is_advancing);
   return is_next_message(clock.kind) ? std::min(clock.asked, clock.queue.next_time()) : clock.asked;
@@ -184,8 +184,8 @@ double ConservativeTime::galt(std::uint32_t federate) const {
   return least_of_others(federate, bound);
 }
 
-/// The least time stamp that any other federate can use, if the least of all is `bound`, which is
-/// `federate`'s own: others may answer it.
+/// The least time stamp that any other federate can use, where `bound` is the least of all and
+/// `federate`'s own: others may answer that federate.
 double ConservativeTime::least_of_others(std::uint32_t federate, double bound) const {
   double least = time_unbounded;
   std::size_t open[2 * 64] = {1};  // the nodes still to look at: at most two on each level
@@ -285,7 +285,7 @@ void ConservativeTime::advance(std::uint32_t federate, double galt, TimeListener
   listener.grant(federate, granted);
 }
 
-/// All that waits for it up to and at `until`.
+/// Delivers all messages that wait for the federate up to and at `until`.
 void ConservativeTime::deliver(std::uint32_t federate, double until, TimeListener& listener) {
   TimeQueue& queue = clocks_[federate].queue;
   while (!queue.is_empty() && queue.next_time() <= until) listener.deliver(federate, queue.pop());

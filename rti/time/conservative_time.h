@@ -1,5 +1,5 @@
-// Conservative time management: nobody is granted a time before which somebody could still send to
-// him.
+// Conservative time management: no federate is granted a time before which another could still send
+// to it.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ namespace rink::rti {
 
 /// The lower bound on time stamps of Fujimoto 1998, with federates that wait for their next message
 /// solved in closed form instead of by rounds of null messages (Chandy and Misra 1979):
-/// docs/rti.md, "Time management", has the algorithm and why it is right. A request, a message or a
-/// grant costs a logarithm of the number of federates.
+/// docs/rti.md, "Time management", has the algorithm and its proof. A request, a message or a grant
+/// costs a logarithm of the number of federates.
 class ConservativeTime final : public TimeManagement {
  public:
   bool enable_regulation(std::uint32_t federate, double lookahead) override;
@@ -40,8 +40,8 @@ class ConservativeTime final : public TimeManagement {
   struct Clock {
     bool is_regulating = false, is_constrained = false;
     bool awaits_regulation = false, awaits_constraint = false,
-         is_advancing = false;                     ///< asked for and not yet told
-    AdvanceKind kind = AdvanceKind::time_advance;  ///< of the request at hand
+         is_advancing = false;                     ///< asked for and not yet granted
+    AdvanceKind kind = AdvanceKind::time_advance;  ///< of the present request
     double asked = 0.0;                            ///< the time asked for, while advancing
     double enabling = 0.0;  ///< the time that regulation begins at, while awaited
     double time = 0.0;      ///< logical time
@@ -70,10 +70,10 @@ class ConservativeTime final : public TimeManagement {
   /// By federate, infinite where there is nothing. Bounds: the least time stamp that a regulating
   /// federate can still use if nobody sends to it.
   LeastTree bounds_;
-  /// Of those who wait for their next message: what an earlier message can lower their bound to is
+  /// For federates that wait for their next message: an earlier message can lower their bound to
   /// the later of their floor and the message's time + lookahead.
   LeastTree floors_, lookaheads_;
-  /// The GALT at which something that a federate asked for can be done.
+  /// The GALT at which a federate's request can be granted.
   LeastTree needs_;
 };
 

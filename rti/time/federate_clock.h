@@ -1,4 +1,4 @@
-// A federate's own view of its logical time: what it may ask for and say now, judged before
+// A federate's own view of its logical time: what it may request and send now, checked before
 // anything is sent.
 #pragma once
 
@@ -9,8 +9,8 @@
 namespace rink::rti {
 
 /// Follows the services and the callbacks of time management. The `ask_…` functions throw
-/// `RtiException` by the name that IEEE 1516.1-2010 gives the error, and else take note; the others
-/// hear what the RTI answers and return false where it answers what nobody asked for.
+/// `RtiException` with the error's name in IEEE 1516.1-2010, or else note the request; the others
+/// note the RTI's answers and return false for an answer to no request.
 class FederateClock {
  public:
   /// 8.2: InvalidLookahead, InTimeAdvancingState, RequestForTimeRegulationPending,
@@ -29,9 +29,9 @@ class FederateClock {
   void ask_lookahead(double lookahead);
   /// 8.14, 8.15: AsynchronousDeliveryAlreadyEnabled, AsynchronousDeliveryAlreadyDisabled.
   void ask_asynchronous(bool is_wanted);
-  /// InvalidLogicalTime if a message of that time stamp is too early.
+  /// Throws InvalidLogicalTime if a message of that time stamp would be too early.
   void check_send(double time) const;
-  /// The same, and the number of the message. Must be regulating.
+  /// Checks as `check_send` and returns the number of the message. The federate must be regulating.
   std::uint64_t ask_send(double time);
   /// 8.21: TimeRegulationIsNotEnabled, InvalidMessageRetractionHandle,
   /// MessageCanNoLongerBeRetracted.
@@ -45,12 +45,13 @@ class FederateClock {
   bool is_constrained() const { return is_constrained_ && !awaits_constraint_; }
   bool is_advancing() const { return is_advancing_; }
   double time() const { return time_; }
-  /// 8.20: TimeRegulationIsNotEnabled. The actual one: a shorter one comes about only as time
-  /// advances.
+  /// 8.20: TimeRegulationIsNotEnabled. The actual lookahead: a shorter one takes effect only as
+  /// time advances.
   double lookahead() const;
-  /// The least time stamp that it may use now.
+  /// The least time stamp that the federate may use now.
   double earliest() const;
-  /// The least that it may use now or after a grant that comes before the time asked for.
+  /// The least time stamp that the federate may use now or after a grant to a time before that
+  /// asked for.
   double earliest_ever() const { return floor_; }
   /// True while messages in receive order have to wait: a constrained federate gets them while it
   /// advances, unless it asked to get them always (8.14).

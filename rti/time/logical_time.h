@@ -1,4 +1,4 @@
-// Logical time: how federates ask for it, and how early a federate may still say something.
+// Logical time: the requests to advance, and the least time stamp that a federate may still use.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// What HLA calls infinity: no message can come any more, or nobody sets a bound.
+/// Infinity in HLA: no message can come any more, or no federate sets a bound.
 inline constexpr double time_unbounded = std::numeric_limits<double>::infinity();
 inline bool is_valid_time(double time) {
   return time >= 0.0 && time < std::numeric_limits<double>::max();
@@ -24,27 +24,27 @@ inline double just_after(double time) { return std::nextafter(time, time_unbound
 
 /// The five requests of IEEE 1516.1-2010, 8.8 to 8.12; the numbers are those on the wire.
 enum class AdvanceKind : std::uint8_t {
-  time_advance,            ///< to the time asked for, with every message up to and at it
+  time_advance,            ///< to the requested time, with every message up to and at it
   time_advance_available,  ///< the same, but more may come at that very time
-  next_message,  ///< to the next message or the time asked for, whichever is earlier, with every
+  next_message,  ///< to the next message or the requested time, whichever is earlier, with every
                  ///< message at it
   next_message_available,  ///< the same, but more may come at that very time
-  flush_queue,             ///< all that waits at once, whatever its time
+  flush_queue,             ///< delivers all waiting messages at once, whatever their time
 };
 inline constexpr std::uint8_t advance_kind_max =
     static_cast<std::uint8_t>(AdvanceKind::flush_queue);
 inline bool is_next_message(AdvanceKind kind) {
   return kind == AdvanceKind::next_message || kind == AdvanceKind::next_message_available;
 }
-/// True if a federate so granted to t has heard all that will be said at t.
+/// True if a federate that is so granted to t has received all messages at t.
 inline bool is_complete(AdvanceKind kind) {
   return kind == AdvanceKind::time_advance || kind == AdvanceKind::next_message;
 }
 
-/// The least time stamp that a federate may use which is, or asks to be, at `time` by a request of
-/// `kind`. Who heard all of an instant may not speak at it any more, which matters when its
-/// lookahead is zero, or so small that the sum is rounded to the time. Both ends compute it so:
-/// they must agree to the last bit.
+/// The least time stamp that a federate may use which is at `time`, or requests it, by a request of
+/// `kind`. A federate that has received all messages of an instant may send none at it any more,
+/// which matters when its lookahead is zero, or so small that the sum is rounded to the time. Both
+/// ends compute this and must agree to the last bit.
 inline double earliest_stamp(double time, double lookahead, AdvanceKind kind) {
   assert(lookahead >= 0.0);
   const double sum = time + lookahead;

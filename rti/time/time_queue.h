@@ -10,8 +10,8 @@
 
 namespace rink::rti {
 
-/// Two heaps: what waits, and what of it was withdrawn and is struck out when it comes to the top.
-/// So a retraction costs no more than a message.
+/// Two heaps: waiting entries, and withdrawn ones that are removed when they come to the top. So a
+/// retraction costs no more than a message.
 class TimeQueue {
  public:
   bool is_empty() const { return waiting_.empty(); }

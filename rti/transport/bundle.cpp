@@ -1,4 +1,4 @@
-// Records out and in: each connection's bytes under its number.
+// Writes and reads records: each connection's bytes under its number.
 #include "rti/transport/bundle.h"
 
 #include <algorithm>
@@ -102,7 +102,7 @@ void BundledTransport::close(ConnectionId connection) {
 }
 
 void BundledTransport::end(ConnectionId connection, CloseReason reason, const std::string& detail) {
-  assert(!channels_[connection].is_closed);  // its end is told once
+  assert(!channels_[connection].is_closed);  // its end is reported once
   channels_[connection].is_closed = true;
   news_.push_back({connection, false, reason, detail});
 }
@@ -148,7 +148,7 @@ void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
   if constexpr (checks_whole_structures) check();
 }
 
-/// Leaves what it told in `telling_`, so that a poll knows that it has told something.
+/// Leaves the reported events in `telling_`, so that a poll knows that it has reported any.
 void BundledTransport::report() {
   while (!news_.empty()) {
     telling_.swap(news_);
@@ -185,7 +185,7 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
       trunk.header_size = 0;
       if (!handle_header(trunk_id)) {
         carrier_.close(trunk_id);
-        return on_close(trunk_id, CloseReason::failed, "sent what is no record of a bundle");
+        return on_close(trunk_id, CloseReason::failed, "sent bytes that are no record of a bundle");
       }
       continue;
     }
@@ -194,7 +194,7 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
     trunk.left -= static_cast<std::uint32_t>(part.size());
     const ConnectionId connection = trunk.channels[trunk.number];
     if (Channel* channel =
-            find(connection)) {  // else it was closed by us, and the peer has not heard yet
+            find(connection)) {  // else this end closed it, and the peer does not know yet
       channel->counters.bytes_received += part.size();
       listener_->on_bytes(connection, part);
     }

@@ -12,7 +12,7 @@ namespace rink::rti {
 /// A transport over a transport; both ends must have one. What is sent is gathered for each trunk
 /// until the next `push` or `poll`, then goes as one write, so the peer gets a process's federates
 /// with one read: a lockstep of n federates costs two system calls at either end instead of 4 n.
-/// What they share is the trunk's queue and its end: one process that does not read is one slow
+/// The connections share the trunk's queue and its end: a process that does not read is one slow
 /// reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a size of
 /// `opens` or `closes` is all of its record. A peer that sends anything else loses its trunk.
 class BundledTransport final : public Transport, private TransportListener {
@@ -20,7 +20,7 @@ class BundledTransport final : public Transport, private TransportListener {
   static constexpr std::uint32_t opens = 0xffffffff, closes = 0xfffffffe;
   static constexpr std::size_t channel_max = 65'536;  ///< that a peer may open on one trunk
   static constexpr std::size_t gathered_max =
-      1u << 16;  ///< bytes gathered before they are sent anyway
+      1u << 16;  ///< bytes gathered before they are sent at once
 
   /// `carrier` must outlive it, and is polled by it alone.
   explicit BundledTransport(Transport& carrier) : carrier_(carrier) {}
@@ -36,8 +36,8 @@ class BundledTransport final : public Transport, private TransportListener {
   /// Of the connection's own payload, without the records' headers; the kernel knows trunks only.
   TransportCounters counters(ConnectionId connection) const override;
   void push() override;
-  /// Asserts that trunks and channels lead to each other, and that who has gathered anything is on
-  /// the list.
+  /// Asserts that trunks and channels refer to each other, and that trunks with gathered bytes are
+  /// on the list.
   void check() const;
 
  private:
@@ -49,12 +49,12 @@ class BundledTransport final : public Transport, private TransportListener {
   };
   struct Trunk {
     bool is_open = false, is_closed = false,
-         is_ours = false;  ///< we connected it: channels are numbered and opened by us
+         is_ours = false;                ///< this end connected it, and numbers and opens channels
     std::vector<ConnectionId> channels;  ///< by number
     std::vector<std::byte> gathered;
     std::byte header[8] = {};
-    std::size_t header_size = 0;         ///< of it heard
-    std::uint32_t number = 0, left = 0;  ///< of the record at hand
+    std::size_t header_size = 0;         ///< bytes of it received
+    std::uint32_t number = 0, left = 0;  ///< of the present record
   };
   struct News {
     ConnectionId connection;
@@ -72,7 +72,7 @@ class BundledTransport final : public Transport, private TransportListener {
   ConnectionId add(ConnectionId trunk_id);
   void write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t size);
   void send_gathered(ConnectionId trunk_id);
-  /// False if the header is none.
+  /// False if the header is invalid.
   bool handle_header(ConnectionId trunk_id);
   void end(ConnectionId connection, CloseReason reason, const std::string& detail);
   void report();

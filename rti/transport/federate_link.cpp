@@ -1,4 +1,4 @@
-// Federates on a transport.
+// Connects ambassadors to a transport.
 #include "rti/transport/federate_link.h"
 
 #include <cassert>

@@ -8,8 +8,7 @@
 
 namespace rink::rti {
 
-/// Sends what waits of the ambassador: its bytes as one write, its datagram if there is a way for
-/// it.
+/// Sends the ambassador's waiting bytes as one write, and its datagrams if there is a channel.
 void send_waiting(Ambassador& ambassador, Transport& transport, ConnectionId connection);
 
 /// One ambassador on one connection. Many links may share one transport through a `FederateLinks`.
@@ -26,14 +25,14 @@ class FederateLink {
   }  ///< closed, or never opened; nothing more will happen
   CloseReason close_reason() const { return close_reason_; }
 
-  /// What the transport says of our connection. Bytes that the ambassador rejects close the
-  /// connection.
+  /// Handle the transport's events of this connection. Bytes that the ambassador rejects close it.
   void opened() { is_open_ = true; }
   void received(Bytes bytes);
   void received_datagram(Bytes datagram) { ambassador_.receive_datagram(datagram); }
   void closed(CloseReason reason, const std::string& detail);
 
-  /// Hands in the time and sends what waits, as one write, once the connection is open.
+  /// Advances the ambassador's clock and sends what waits, as one write, once the connection is
+  /// open.
   void flush(double now);
   /// Sends what waits and closes.
   void close();

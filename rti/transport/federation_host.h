@@ -18,18 +18,18 @@ class FederationHost {
   explicit FederationHost(CentralComponent& core);
   ~FederationHost();
 
-  /// The transport must outlive the host. Its listening and connecting is its owner's business.
+  /// The transport must outlive the host. Its owner makes it listen and connect.
   void add(Transport& transport);
 
-  /// Takes in what came, from each transport in the order added; only the last one waits, up to
-  /// `longest_wait`, if nothing came before.
+  /// Polls each transport in the order added; only the last one waits, up to `longest_wait`, if
+  /// nothing came before.
   void poll(std::chrono::nanoseconds longest_wait);
-  /// The same from one transport alone, without waiting: what a federate beside us has answered
-  /// needs no question to the kernel.
+  /// Polls one transport alone, without waiting: the answer of a federate in the same process needs
+  /// no system call.
   void poll(Transport& transport);
   void advance_clock(double now) { core_.advance_clock(now); }
   void match() { core_.match(); }
-  /// One write per destination; drops whom the execution wants dropped.
+  /// Sends one write per destination, and closes the connections that the execution drops.
   void flush();
 
   /// Sum over the transports' connections, closed ones included.

@@ -1,4 +1,4 @@
-// Enough file descriptors, or a clear word about what is missing.
+// Raises the limit of open files, or throws an error that names both limits.
 #include <sys/resource.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// Lines between endpoints of one process.
+// Carries bytes between endpoints of one process.
 #include "rti/transport/in_process.h"
 
 #include <cassert>
@@ -48,7 +48,7 @@ void InProcessEndpoint::report(const Event& event, TransportListener& listener) 
   if (event.kind == EventKind::open) return listener.on_open(event.connection);
   if (event.kind == EventKind::close)
     return listener.on_close(event.connection, event.reason, event.detail);
-  delivering_.clear();  // a listener that threw may have left something
+  delivering_.clear();  // a listener that threw may have left some bytes
   delivering_.swap(lines_[event.connection].incoming);
   lines_[event.connection].counters.bytes_received += delivering_.size();
   if (!delivering_.empty()) listener.on_bytes(event.connection, delivering_);
@@ -87,7 +87,7 @@ void InProcessEndpoint::part(ConnectionId connection, CloseReason ours, CloseRea
   line.peer->events_.add({EventKind::close, line.peer_connection, theirs, detail});
   events_.add({EventKind::close, connection, ours, detail});
   there.peer = line.peer = nullptr;
-  line.incoming.clear();  // what the peer said before is of no interest to one who closes
+  line.incoming.clear();  // an end that closes does not read what came before
 }
 
 std::size_t InProcessEndpoint::queued_bytes(ConnectionId connection) const {

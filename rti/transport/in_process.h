@@ -14,8 +14,8 @@ namespace rink::rti {
 
 class InProcessEndpoint;
 
-/// The air between endpoints; must outlive them. Bytes sent are there at the receiver's next poll.
-/// One thread for all.
+/// The network between endpoints; must outlive them. Bytes sent arrive at the receiver's next poll.
+/// All use one thread.
 class InProcessNetwork {
  public:
   /// `queue_max` [bytes]: what a receiver may leave unread per connection before it is closed.
@@ -27,7 +27,7 @@ class InProcessNetwork {
   std::size_t queue_max_;
 };
 
-/// One federate's or the RTI's end. `poll` never waits: what can happen has happened.
+/// One federate's or the RTI's end. `poll` never waits, since no event can come during a wait.
 class InProcessEndpoint final : public Transport {
  public:
   explicit InProcessEndpoint(InProcessNetwork& network) : network_(network) {}

@@ -83,7 +83,7 @@ void Readiness::sleep(std::chrono::nanoseconds longest_wait) {
                                      static_cast<int>(events_.size()), &timeout, nullptr);
     count_ = static_cast<std::size_t>(std::max(0, count));
     if (count >= 0 || errno == EINTR) return;
-    has_exact_sleep_ = false;  // an older kernel, or a sandbox that has not heard of it
+    has_exact_sleep_ = false;  // an older kernel, or a sandbox that does not know the call
   }
   pollfd all{.fd = epoll_.number(), .events = POLLIN, .revents = 0};
   ::ppoll(&all, 1, &timeout, nullptr);

@@ -1,4 +1,4 @@
-// Which files can be read or written: the kernel's epoll, asked for many at once.
+// Which files can be read or written, by the kernel's epoll.
 #pragma once
 
 #include <sys/epoll.h>
@@ -28,43 +28,41 @@ class File {
   int number_ = -1;
 };
 
-/// Transports number their files so: from here on are listening sockets, those below are
-/// connections.
+/// Transports number listening sockets from here on; numbers below are connections.
 inline constexpr std::uint64_t listener_mark = 1ull << 32;
 
-/// Watches files by a number of the caller's choice. Level-triggered: what was not read or written
-/// to the end is told again, so a file is watched once and not touched again between two reads,
+/// Watches files by a number of the caller's choice. Level-triggered: a file that was not read or
+/// written to the end is reported again, so it is watched once and not touched between two reads,
 /// which halves the system calls of a reactor that arms each read anew.
 class Readiness {
  public:
   struct Event {
     std::uint64_t number;
     bool is_writable, is_readable;  ///< both after an error or the peer's end, which reading or
-                                    ///< writing then tells
+                                    ///< writing then shows
   };
 
   Readiness();
 
-  /// `wants_room`: also tell when it can be written. The file is forgotten when it is closed. False
-  /// if the kernel refuses.
+  /// `wants_room`: also report when it can be written. The file is forgotten when it is closed.
+  /// False if the kernel refuses.
   bool watch(int file, std::uint64_t number, bool wants_room);
   void change(int file, std::uint64_t number, bool wants_bytes, bool wants_room);
 
-  /// Asks the kernel what is ready, unless something that it told is left to take. If nothing is
-  /// ready it asks again and again for `spin`, then sleeps until something is; both together take
-  /// at most `longest_wait`. May end early.
+  /// Asks the kernel which files are ready, unless reported events are left to take. If none is
+  /// ready it asks again and again for `spin`, then sleeps until one is; both together take at most
+  /// `longest_wait`. May end early.
   void ask(std::chrono::nanoseconds longest_wait, std::chrono::nanoseconds spin);
 
-  /// The next event, in the order in which the kernel told them, or nothing if all are taken. The
-  /// kernel is asked again here only where its answer was as long as one may be. So a file that
-  /// always has something comes back when all others had their turn. An event may be about a file
-  /// that was closed since.
+  /// The next event, in the kernel's order, or nothing if all are taken. The kernel is asked again
+  /// here only if its answer was of the greatest length, so a file that is always ready comes back
+  /// after all others had their turn. An event may be about a file that was closed since.
   std::optional<Event> next();
 
-  /// True if something that the kernel told is left to take.
+  /// True if reported events are left to take.
   bool has_left() const { return taken_ != count_; }
 
-  /// Can be read when there is an event.
+  /// A file that can be read when there is an event.
   int file() const { return epoll_.number(); }
 
  private:

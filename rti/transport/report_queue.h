@@ -8,8 +8,8 @@
 
 namespace rink::rti {
 
-/// Events in the order in which they came. Each is reported once: if a listener throws, the event
-/// in hand counts as reported, and those behind it come first the next time.
+/// Events in the order in which they came. Each is reported once: if a listener throws, the present
+/// event counts as reported, and those after it come first the next time.
 template <class Event>
 class ReportQueue {
  public:

@@ -1,4 +1,4 @@
-// A choice of transports.
+// Makes the transport that a name stands for.
 #include "rti/transport/socket_transport.h"
 
 #include <unistd.h>

@@ -1,5 +1,4 @@
-// The transports between processes behind one way of listening and connecting, for commands that
-// let their user choose.
+// One interface to the transports between processes, for commands that let their user choose.
 #pragma once
 
 #include <array>
@@ -16,8 +15,8 @@ namespace rink::rti {
 
 inline constexpr std::array<const char*, 3> socket_transport_names{"tcp", "udp", "shm"};
 
-/// TCP, UDP beside TCP, or shared memory, by name. With shared memory the address says nothing: a
-/// port is one of this machine's.
+/// TCP, UDP beside TCP, or shared memory, by name. Shared memory ignores the address: a port is one
+/// of this machine's.
 class SocketTransport {
  public:
   /// `name` must be one of `socket_transport_names`.
@@ -27,8 +26,8 @@ class SocketTransport {
   /// The port; 0 takes any free one. Throws TransportError.
   std::uint16_t listen(const std::string& address, std::uint16_t port);
   ConnectionId connect(const std::string& address, std::uint16_t port);
-  /// Of all connections that ever were; datagrams are in the bytes too, sent and received, ours and
-  /// the kernel's.
+  /// Sums over all connections that ever were; bytes sent and received, by own count and the
+  /// kernel's, include datagrams.
   TransportCounters totals() const;
 
  private:

@@ -1,4 +1,4 @@
-// The words for closed connections.
+// Texts for the reasons why connections close.
 #include "rti/transport/transport.h"
 
 namespace rink::rti {

@@ -1,4 +1,4 @@
-// The seam between the RTI's core, which does no I/O, and whatever carries its bytes.
+// The seam between the RTI's core, which does no I/O, and the transport that carries its bytes.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ enum class CloseReason : std::uint8_t {
 };
 const char* to_string(CloseReason reason);
 
-/// What went wrong when a transport was set up; `what` says it to a user, with address and port.
+/// An error in setting up a transport; `what` explains it to a user, with address and port.
 class TransportError : public std::runtime_error {
  public:
   enum class Kind : std::uint8_t { in_use, no_such_address, no_permission, too_many_files, failed };
@@ -34,7 +34,7 @@ class TransportError : public std::runtime_error {
   Kind kind_;
 };
 
-/// Told what a transport found out while it was polled. Callbacks may send and close, but not poll.
+/// Receives a transport's events while it is polled. Callbacks may send and close, but not poll.
 class TransportListener {
  public:
   virtual ~TransportListener() = default;
@@ -42,12 +42,12 @@ class TransportListener {
   /// Bytes as the peer sent them, in order, cut anywhere. Valid during the call.
   virtual void on_bytes(ConnectionId connection, Bytes bytes) = 0;
   virtual void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) = 0;
-  /// One whole datagram of the connection's peer, sooner or later than what was sent before or
-  /// after it, or twice. Valid during the call.
+  /// One whole datagram of the connection's peer, in any order with other messages, and perhaps
+  /// twice. Valid during the call.
   virtual void on_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
 };
 
-/// Payload as counted here, and what the kernel says of the same connection where it can
+/// Payload as counted here, and the kernel's counts of the same connection where it has them
 /// (`TCP_INFO`).
 struct TransportCounters {
   std::uint64_t bytes_sent = 0,
@@ -60,9 +60,9 @@ struct TransportCounters {
   std::optional<std::uint64_t> kernel_bytes_received;
   std::optional<std::uint64_t>
       kernel_segments_sent;  ///< with data: on loopback fewer and larger ones than `segments_sent`
-  /// Segments without data that this end sent: by the kernel, those of the handshake included;
-  /// where it carries nothing by the model of DelayedAcknowledgements, and none in the transports
-  /// that have no clock.
+  /// Segments without data that this end sent: the kernel's count with those of the handshake, or
+  /// that of `DelayedAcknowledgements` where no kernel carries the bytes; 0 in transports without a
+  /// clock.
   std::uint64_t acknowledgements_sent = 0;
   /// Apart from the bytes above: datagrams given to and taken from the operating system, and their
   /// payload.
@@ -71,8 +71,8 @@ struct TransportCounters {
 };
 
 /// Carries bytes, reliably and in order, between this endpoint and its peers. Not thread safe: one
-/// thread owns it. Transports that can also lose what may be lost, and are faster for it, override
-/// the last three members; all others leave them alone.
+/// thread owns it. Transports with unreliable datagrams override the last three members; all others
+/// leave them alone.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -90,9 +90,8 @@ class Transport {
   /// `poll`.
   virtual void close(ConnectionId connection) = 0;
 
-  /// What `counters` says as `queued_bytes`, without asking the kernel: asked of each destination
-  /// before each send. 0 from a transport that doesn't know, whose readers then get all updates
-  /// however late.
+  /// `queued_bytes` of `counters` without a call to the kernel, for use before each send. 0 from a
+  /// transport that does not know, whose readers then get all updates however late.
   virtual std::size_t queued_bytes(ConnectionId) const { return 0; }
 
   /// Counters of an open connection, or the last ones of a closed one; all zero for one that never
@@ -100,14 +99,14 @@ class Transport {
   virtual TransportCounters counters(ConnectionId connection) const = 0;
 
   /// The most bytes that a datagram over this connection may have now [bytes]; 0 while there is no
-  /// way for datagrams, when none may be sent.
+  /// channel for datagrams, when none may be sent.
   virtual std::size_t datagram_max(ConnectionId /*connection*/) const { return 0; }
   /// Sends each as one datagram, or loses it; never queues it for long, never closes the
-  /// connection. The bytes are valid during the call, bodies that say so until the next `push`.
+  /// connection. The bytes are valid during the call, bodies marked as staying until the next
+  /// `push`.
   virtual void send_datagrams(ConnectionId /*connection*/,
                               std::span<const Datagram> /*datagrams*/) {}
-  /// Gives datagrams that were gathered, so that many go in one system call, to the operating
-  /// system.
+  /// Passes gathered datagrams to the operating system, many in one system call.
   virtual void push() {}
 };
 

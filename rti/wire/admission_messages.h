@@ -1,4 +1,4 @@
-// The messages by which both ends prove that they have the same key, before anything else is said
+// The messages by which both ends prove that they have the same key, before anything else is sent
 // (docs/wire.md).
 #pragma once
 

@@ -6,7 +6,7 @@
 
 namespace rink::rti {
 
-/// A message about one keyframe; numbers go round.
+/// A message about one keyframe; numbers wrap around.
 template <MessageKind k>
 struct KeyframeMessage {
   static constexpr MessageKind kind = k;
@@ -20,7 +20,7 @@ bool exchange(Stream& stream, KeyframeMessage<k>& message) {
 using BeginKeyframeMessage = KeyframeMessage<MessageKind::begin_keyframe>;
 /// From a federate: it keeps all that it was sent of this keyframe.
 using AcknowledgeKeyframeMessage = KeyframeMessage<MessageKind::acknowledge_keyframe>;
-/// From a federate: it was sent differences to this keyframe and has none such.
+/// From a federate: it received differences to this keyframe, which it lacks.
 using RefuseKeyframeMessage = KeyframeMessage<MessageKind::refuse_keyframe>;
 
 /// Begins a block of periodic state; its bits follow (rti/baselines/delta_bits.h).

@@ -12,12 +12,12 @@ using ConnectionId = std::uint32_t;
 
 using Bytes = std::span<const std::byte>;
 
-/// One datagram in two parts that travel as one: what is its receiver's alone, and what may be the
-/// same for many.
+/// One datagram in two parts: a head for its receiver alone, and a body that many receivers may
+/// share.
 struct Datagram {
   Bytes head, body;
-  bool does_body_stay = false;  ///< valid until the transport has been told to `push`; else, as the
-                                ///< head, during the call only
+  bool does_body_stay = false;  ///< valid until the transport's next `push`; else, as the head,
+                                ///< during the call only
 };
 
 }  // namespace rink::rti

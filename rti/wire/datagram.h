@@ -14,8 +14,8 @@ namespace rink::rti {
 /// What every datagram begins with.
 struct DatagramHead {
   static constexpr std::size_t size = 8;
-  std::uint32_t number = 0;  ///< counts from 1 in each direction of a connection; 0: nothing in it
-                             ///< is to be acknowledged
+  std::uint32_t number = 0;  ///< counts from 1 in each direction of a connection; 0: not to be
+                             ///< acknowledged
   std::uint32_t frames = 0;  ///< of the stream, sent to the same receiver before it
 };
 template <class Stream>
@@ -27,7 +27,7 @@ bool exchange(Stream& stream, DatagramHead& head) {
 /// be sent at once.
 inline constexpr std::uint8_t datagram_end = 0;
 
-/// Bit k of `before` tells that datagram `newest` - 1 - k has arrived.
+/// Bit k of `before` means that datagram `newest` - 1 - k has arrived.
 template <MessageKind k>
 struct AcknowledgeMessage {
   static constexpr MessageKind kind = k;
@@ -49,12 +49,12 @@ using AcknowledgeDatagramsMessage = AcknowledgeMessage<MessageKind::acknowledge_
 class DatagramReceipts {
  public:
   static constexpr std::uint32_t per_acknowledgement =
-      32;  ///< half a window, so that each is told twice
+      32;  ///< half a window, so that each is acknowledged twice
   static constexpr double longest_delay_s =
       0.1;  ///< before what arrived is acknowledged [s], unless one is missing: reading an
             ///< acknowledgement costs a fourth of what sending a tick does
 
-  /// False if it has been noted before, or is too old to tell.
+  /// False if it has been noted before, or is too old for an acknowledgement.
   bool note(std::uint32_t number) {
     AcknowledgeDatagramsMessage& state = state_;
     if (number <= state.newest) {
@@ -63,7 +63,7 @@ class DatagramReceipts {
       state.before |= std::uint64_t{1} << (age - 1);
     } else {
       const std::uint32_t step = number - state.newest;
-      // Of datagram 0, which never was, nothing is told.
+      // Datagram 0, which does not exist, is not acknowledged.
       state.before = step > state.window
                          ? 0
                          : (step == state.window ? 0 : state.before << step) |
@@ -74,8 +74,8 @@ class DatagramReceipts {
     ++due_;
     return true;
   }
-  /// True if the sender should be told now: many are due, or one is missing and may have to be sent
-  /// again.
+  /// True if an acknowledgement should be sent now: many are due, or one is missing and may have to
+  /// be sent again.
   bool is_urgent() const { return due_ >= per_acknowledgement || (has_gap_ && due_ > 0); }
   bool is_due() const { return due_ > 0; }
   /// The acknowledgement of all that was noted.
@@ -99,8 +99,8 @@ inline std::uint64_t order_of_datagram(const DatagramHead& head) {
 /// `frame` counts from 1.
 inline std::uint64_t order_of_frame(std::uint32_t frame) { return std::uint64_t{frame} << 32; }
 
-/// Attributes of a class that travel by datagram where there is a way: best-effort and in receive
-/// order, for time-stamp order waits for all that was said before.
+/// Attributes of a class that travel by datagram where there is a channel: best-effort and in
+/// receive order, since time-stamp order waits for all that was sent before.
 inline AttributeSet best_effort_attributes(const ObjectClass& object_class) {
   AttributeSet set;
   for (std::uint32_t i = 0; i < object_class.attributes.size(); ++i)

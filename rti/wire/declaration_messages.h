@@ -1,5 +1,5 @@
-// The messages of declaration management: what is published and subscribed, who hears what of a
-// class or an object, and which values are kept back since nobody does.
+// The messages of declaration management: publications, subscriptions, advice about others'
+// subscriptions, and notices of values kept back.
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,7 @@ using PublishInteractionClassMessage =
 using SubscribeInteractionClassMessage =
     InteractionClassMessage<MessageKind::subscribe_interaction_class>;
 
-/// Tells who publishes a class what others hear of it (docs/rti.md, "Nobody listens").
+/// Advises a publisher of a class what others subscribe to (docs/rti.md, "Nobody listens").
 struct ClassRelevanceMessage {
   static constexpr MessageKind kind = MessageKind::class_relevance;
   std::uint8_t is_interaction = 0;
@@ -65,8 +65,9 @@ bool exchange(Stream& stream, ClassRelevanceMessage& message) {
          stream.varint(message.subscribed) && stream.varint(message.active);
 }
 
-/// An object and some of its attributes. Downwards: those that are in somebody's scope now, of the
-/// receiver's own. Upwards: those whose values are out of date, for newer ones are kept back.
+/// An object and some of its attributes. Downwards: attributes of an own object that are in some
+/// federate's scope now. Upwards: attributes whose values are out of date since newer ones are kept
+/// back.
 template <MessageKind k>
 struct ObjectAttributesMessage {
   static constexpr MessageKind kind = k;
@@ -80,7 +81,7 @@ bool exchange(Stream& stream, ObjectAttributesMessage<k>& message) {
 using ObjectRelevanceMessage = ObjectAttributesMessage<MessageKind::object_relevance>;
 using SpareUpdateMessage = ObjectAttributesMessage<MessageKind::spare_update>;
 
-/// Whether its sender is told of the relevance of its objects, one by one.
+/// Whether the sender gets advice about the relevance of each of its objects.
 struct AdvisorySwitchMessage {
   static constexpr MessageKind kind = MessageKind::advisory_switch;
   std::uint8_t is_on = 0;

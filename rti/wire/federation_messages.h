@@ -1,5 +1,5 @@
-// The messages of federation management: synchronisation points, and what may be asked of a host
-// before a federate has joined.
+// The messages of federation management: synchronisation points, and requests to a host before a
+// federate has joined.
 #pragma once
 
 #include "rti/wire/message.h"
@@ -34,7 +34,7 @@ inline std::vector<FederateHandle> handles_of(const HandleList& list) {
   return handles;
 }
 
-/// `message` in a frame of its own, for one who has not joined.
+/// `message` in a frame of its own, for a connection that has not joined.
 template <class Message>
 std::vector<std::byte> framed(Message message) {
   FrameWriter frame(frame_max_to_federate);
@@ -43,7 +43,7 @@ std::vector<std::byte> framed(Message message) {
   return {frame.bytes().begin(), frame.bytes().end()};
 }
 
-/// Without members it is for all, those included who join before it is reached.
+/// Without members the point is for all, those included that join before it is reached.
 struct RegisterSynchronizationPointMessage {
   static constexpr MessageKind kind = MessageKind::register_synchronization_point;
   std::string_view label;
@@ -123,7 +123,7 @@ bool exchange(Stream& stream, DestroyFederationExecutionMessage& message) {
 
 using ListFederationExecutionsMessage = BareMessage<MessageKind::list_federation_executions>;
 
-/// What became of a wish to create or destroy: `error` is an `HlaError`, 0 if it was done.
+/// The result of a request to create or destroy: `error` is an `HlaError`, 0 for success.
 template <MessageKind k>
 struct FederationOutcomeMessage {
   static constexpr MessageKind kind = k;
@@ -140,11 +140,11 @@ using FederationExecutionCreatedMessage =
 using FederationExecutionDestroyedMessage =
     FederationOutcomeMessage<MessageKind::federation_execution_destroyed>;
 
-/// One federation execution in the list that answers; the last one says so, and an empty host says
-/// only that.
+/// One federation execution in the list that answers; a last message marks the end, which is all
+/// that an empty host sends.
 struct FederationExecutionMessage {
   static constexpr MessageKind kind = MessageKind::federation_execution;
-  std::uint8_t is_end = 0;  ///< 1: the list is complete, and nothing but this byte is said
+  std::uint8_t is_end = 0;  ///< 1: the list is complete, and only this byte is sent
   std::string_view federation, model;
   std::uint32_t federates = 0;
 };

@@ -76,23 +76,23 @@ class FrameWriter {
   std::uint64_t frame_count_ = 0;
 };
 
-/// What became of bytes handed to a `FrameReader`. Whatever is not `sound` ends the stream: what
-/// was not read is lost.
+/// The result of reading bytes by a `FrameReader`. Any but `sound` ends the stream: what was not
+/// read is lost.
 enum class Framing : std::uint8_t {
-  sound,      ///< all of it is read, or kept until its frame is whole
-  stopped,    ///< the taker of a frame wants no more
-  empty,      ///< a frame without a message: a stream of zeros is no conversation
+  sound,      ///< all bytes are read, or kept until their frame is whole
+  stopped,    ///< the callable that takes frames wants no more
+  empty,      ///< a frame without a message, as in a stream of zeros
   oversized,  ///< a frame longer than allowed
 };
 
 /// Finds whole frames in a stream that may be cut anywhere. Keeps at most one frame's bytes and
-/// never believes a length before they are there.
+/// reserves no memory for a length before the bytes are there.
 class FrameReader {
  public:
   /// Gives each payload to `take`, a callable `bool(Bytes)`; stops as soon as it returns false, or
-  /// at a length of 0 or beyond the limit. `limit()` is asked before each frame, since it may
-  /// change with what was said. Nothing is copied of frames that arrive whole. The caller must end
-  /// the connection unless all was sound.
+  /// at a length of 0 or beyond the limit. `limit()` is called before each frame, since messages
+  /// may change it. Nothing is copied of frames that arrive whole. The caller must end the
+  /// connection unless all was sound.
   template <class Limit, class Take>
   [[nodiscard]] Framing receive(Bytes bytes, Limit limit, Take take) {
     while (!bytes.empty()) {

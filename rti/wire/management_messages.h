@@ -7,7 +7,7 @@
 
 namespace rink::rti {
 
-/// Before the join: about all that the host holds. After it: about one's own execution.
+/// Before the join it asks about all executions of the host, after it about the own one.
 using QueryManagementMessage = BareMessage<MessageKind::query_management>;
 
 /// Begins the report of one execution; what follows up to the next one are its federates.

@@ -16,8 +16,7 @@ struct JoinMessage {
   std::uint64_t fom_hash = 0;
   std::string_view federation, name, type;
 };
-/// What follows the version belongs to that version: a reader stops there when it speaks another
-/// one.
+/// What follows the version belongs to that version: a reader of another version stops there.
 template <class Stream>
 bool exchange(Stream& stream, JoinMessage& message) {
   if (!stream.number(message.magic) || !stream.number(message.version)) return false;
@@ -52,7 +51,8 @@ bool exchange(Stream& stream, FurtherBlockMessage& message) {
   return stream.range(message.object_block, object_block_max - 1);
 }
 
-/// The same in every version of the protocol, so that a refused stranger understands.
+/// The same in every version of the protocol, so that a refused federate of another version can
+/// read it.
 struct RefusedMessage {
   static constexpr MessageKind kind = MessageKind::refused;
   std::uint8_t refusal = 0;
@@ -63,7 +63,7 @@ bool exchange(Stream& stream, RefusedMessage& message) {
   return stream.number(message.refusal) && stream.text(message.why, text_max);
 }
 
-/// The last message to a federate that is dropped: why. Its connection closes.
+/// The last message to a federate that is dropped: the reason. Its connection closes.
 struct ExpelledMessage {
   static constexpr MessageKind kind = MessageKind::expelled;
   std::string_view why;

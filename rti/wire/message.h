@@ -176,8 +176,8 @@ using InScopeMessage = ObjectHandleMessage<MessageKind::in_scope>;
 using OutOfScopeMessage = ObjectHandleMessage<MessageKind::out_of_scope>;
 
 /// First how many bytes of time and tag follow, four bits each, then these: the highest of the
-/// time, for an instant on a binary grid ends in zeros, and the lowest of the tag. An instant of a
-/// match on a grid of 1/1024 s takes 4 of 8 bytes, and a tag that nobody needs none.
+/// time, since an instant on a binary grid ends in zeros, and the lowest of the tag. An instant of
+/// a match on a grid of 1/1024 s takes 4 of 8 bytes, and an unused tag none.
 template <class Stream>
 bool exchange(Stream& stream, Stamp& stamp) {
   std::uint64_t time = std::bit_cast<std::uint64_t>(stamp.time);

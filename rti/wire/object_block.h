@@ -1,5 +1,4 @@
-// Blocks of objects on the wire: what is said of many objects in the same words is said once
-// (docs/wire.md).
+// Blocks of objects on the wire: a header that many objects share is written once (docs/wire.md).
 #pragma once
 
 #include <cassert>
@@ -15,8 +14,8 @@ namespace rink::rti {
 inline constexpr std::size_t object_record_max = 5 + 1;
 
 /// Writes blocks: a header, then the step to each object, then a zero. An object joins the block
-/// before it if that stands at the end of the buffer and has an equal header, so that handing over
-/// a thousand bodies takes a thousand bytes and callers need no bulk form.
+/// before it if that stands at the end of the buffer and has an equal header, so that a message
+/// about each of a thousand bodies takes a thousand bytes and callers need no bulk form.
 class ObjectBlockWriter {
  public:
   template <class Header>
@@ -36,7 +35,7 @@ class ObjectBlockWriter {
     previous_ = object;
     end_ = bytes.size();
   }
-  /// The next object begins a block. Call it whenever the buffer was cleared.
+  /// Makes the next object begin a block. Call it whenever the buffer was cleared.
   void close() { end_ = 0; }
 
  private:

@@ -25,10 +25,10 @@ bool for_each_name(Bytes names, Visit visit) {
   return true;
 }
 
-/// What is asked of names; a set is granted or refused as one.
+/// A request about names; a set is granted or refused as a whole.
 enum class NameRequest : std::uint8_t { reserve, reserve_set, release };
-/// What became of it. The last answers a registration by a name that was not free: the object goes
-/// by its default name.
+/// The answer. The last one answers a registration by a name that was not free: the object has its
+/// default name.
 enum class NameAnswer : std::uint8_t {
   granted,
   set_granted,
@@ -83,7 +83,8 @@ bool exchange(Stream& stream, ChangeTransportationMessage& message) {
          stream.varint(message.attributes) && stream.range(message.transportation, 1);
 }
 
-/// Asks how an attribute travels, or the interactions that a federate sends of a class.
+/// Asks for the transportation type of an attribute, or of the interactions that a federate sends
+/// of a class.
 struct QueryTransportationMessage {
   static constexpr MessageKind kind = MessageKind::query_transportation;
   std::uint8_t is_interaction = 0;

@@ -9,21 +9,21 @@ namespace rink::rti {
 inline constexpr std::size_t ownership_tag_max =
     1024;  ///< longest user-supplied tag of an ownership service [bytes]
 
-/// What a federate asks; the numbers are those on the wire.
+/// A federate's request; the numbers are those on the wire.
 enum class OwnershipRequest : std::uint8_t {
   divest,
   offer,
   confirm,
   deny_release,
   give_if_wanted,
-  withdraw_offer,  // of what it owns
+  withdraw_offer,  // of own attributes
   acquire,
   acquire_if_available,
-  cancel_acquisition,  // of what it does not own
+  cancel_acquisition,  // of others' attributes
 };
 inline constexpr std::uint8_t ownership_request_max = 8;
 
-/// What it is told; the numbers are those on the wire.
+/// A notice to a federate; the numbers are those on the wire.
 enum class OwnershipNotice : std::uint8_t {
   assumption_requested,
   confirmation_requested,
@@ -31,10 +31,10 @@ enum class OwnershipNotice : std::uint8_t {
   unavailable,
   release_requested,
   acquisition_cancelled,
-  divested,  ///< answers a divestiture if wanted: these have gone
+  divested,  ///< answers a divestiture if wanted: these have a new owner
   kept,
   kept_offered,  ///< answers a divestiture if wanted, or a confirmation that came too late: these
-                 ///< are yours still, and on offer still
+                 ///< stay with the receiver, and stay offered
 };
 inline constexpr std::uint8_t ownership_notice_max = 8;
 
@@ -67,7 +67,7 @@ bool exchange(Stream& stream, QueryOwnershipMessage& message) {
   return stream.varint(message.object) && stream.range(message.attribute, attribute_max - 1);
 }
 
-/// `federate` is all ones if nobody owns the attribute.
+/// `federate` is all ones if the attribute has no owner.
 struct InformOwnershipMessage {
   static constexpr MessageKind kind = MessageKind::inform_ownership;
   std::uint32_t object = 0;
@@ -80,7 +80,7 @@ bool exchange(Stream& stream, InformOwnershipMessage& message) {
          stream.number(message.federate);
 }
 
-/// What becomes of its sender's objects when it leaves, in whatever way.
+/// What happens to the sender's objects when it leaves, in whatever way.
 struct ResignDirectiveMessage {
   static constexpr MessageKind kind = MessageKind::resign_directive;
   std::uint8_t action = 0;  ///< a ResignAction

@@ -1,4 +1,4 @@
-// Messages about regions, and about what is published and wanted within them.
+// Messages about regions, and about subscriptions and updates within them.
 #pragma once
 
 #include <cstdint>
@@ -94,7 +94,7 @@ bool exchange(Stream& stream, ModifyRangesMessage& message) {
          stream.rest(message.ranges, message.count * ModifyRangesMessage::range_size);
 }
 
-/// Attributes and a region that they are published or wanted in.
+/// Attributes and a region that they are updated or subscribed in.
 struct AttributeRegionRecord {
   std::uint32_t attributes = 0;
   std::uint32_t region = 0;

@@ -18,7 +18,7 @@ namespace rink::rti {
 static_assert(std::endian::native == std::endian::little,
               "the wire is little-endian and values are copied as they lie in memory");
 
-/// Appends to a buffer; asserts the ranges, for what we write is ours.
+/// Appends to a buffer; asserts the ranges, since only this program's values are written.
 class Writer {
  public:
   static constexpr bool is_reading = false;

@@ -7,14 +7,15 @@
 
 namespace rink::rti {
 
-/// What carries values in receive order: a constrained federate may have to wait for it.
+/// True of messages that carry values in receive order, for which a constrained federate may have
+/// to wait.
 inline bool is_receive_ordered(MessageKind kind) {
   return kind == MessageKind::updates || kind == MessageKind::interaction ||
          kind == MessageKind::remove_object;
 }
 
-/// The longest message that may travel inside a `TimedMessage`: the longest values or parameters
-/// with what stands before them.
+/// The longest message inside a `TimedMessage`: the longest values or parameters and what precedes
+/// them.
 inline constexpr std::size_t content_max = values_max + 64;
 
 template <MessageKind k>
@@ -32,7 +33,7 @@ using ModifyLookaheadMessage = SecondsMessage<MessageKind::modify_lookahead>;
 using TimeConstrainedEnabledMessage = SecondsMessage<MessageKind::time_constrained_enabled>;
 using TimeAdvanceGrantMessage = SecondsMessage<MessageKind::time_advance_grant>;
 
-/// What a federate can switch without a number.
+/// Switches of time management that need no number.
 enum class TimeSwitch : std::uint8_t {
   enable_constrained,
   disable_constrained,
@@ -59,15 +60,15 @@ bool exchange(Stream& stream, AdvanceRequestMessage& message) {
   return stream.range(message.advance, advance_kind_max) && stream.finite(message.time);
 }
 
-/// A message that was sent in time-stamp order. `content` is one whole message: an update block of
-/// one record, an interaction (whose own stamp is all zero, for this one holds) or a deletion.
-/// Upwards `sender` is left out: it is known.
+/// A message in time-stamp order. `content` is one whole message: an update block of one record, an
+/// interaction (whose own stamp is all zero, since this one holds) or a deletion. Upwards `sender`
+/// is left out, since the connection tells it.
 template <MessageKind k>
 struct TimedMessage {
   static constexpr MessageKind kind = k;
   std::uint32_t sender = FederateHandle::none;
   std::uint8_t is_in_order =
-      0;  ///< downwards: 1 for one who is constrained, else the message came as it was sent
+      0;  ///< downwards: 1 if the receiver is constrained; else the message came without order
   std::uint64_t number = 0;  ///< the sender's count
   Stamp stamp;
   Bytes content;
@@ -83,7 +84,7 @@ bool exchange(Stream& stream, TimedMessage<k>& message) {
 using TimedSendMessage = TimedMessage<MessageKind::timed_send>;
 using TimedDeliveryMessage = TimedMessage<MessageKind::timed_delivery>;
 
-/// The sender takes a message back; who has received it already is asked to do so too.
+/// The sender retracts a message; receivers that have it are asked to retract it too.
 struct RetractMessage {
   static constexpr MessageKind kind = MessageKind::retract;
   std::uint64_t number = 0;
@@ -115,7 +116,7 @@ bool exchange(Stream& stream, TimeRegulationEnabledMessage& message) {
 }
 
 using QueryTimeBoundsMessage = BareMessage<MessageKind::query_time_bounds>;
-/// Infinity stands for a bound that nobody sets.
+/// Infinity stands for a bound that no federate sets.
 struct TimeBoundsMessage {
   static constexpr MessageKind kind = MessageKind::time_bounds;
   double galt = 0.0, lits = 0.0;

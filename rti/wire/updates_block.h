@@ -1,4 +1,4 @@
-// Updates that are written value by value, as the central component sends what it keeps.
+// Blocks of updates written value by value, by which the central component sends stored values.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace rink::rti {
 
-/// A block of updates whose values are written in place; completed by its destructor, nothing if it
-/// stayed empty.
+/// A block of updates whose values are written in place. The destructor completes it, or writes
+/// nothing if it stayed empty.
 class UpdatesBlock {
  public:
   explicit UpdatesBlock(std::vector<std::byte>& bytes) : bytes_(bytes) {}

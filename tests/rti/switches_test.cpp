@@ -53,8 +53,8 @@ TEST(Switches, AreRefusedByLineAndElement) {
   EXPECT_EQ(complaint(R"(<serviceReporting isEnabled="true"/>)"),
             at + "<serviceReporting> can't be enabled: this RTI does not do that");
   EXPECT_EQ(complaint(R"(<conveyProducingFederate isEnabled="false"/>)"),
-            at + "<conveyProducingFederate> can't be disabled: whoever receives an interaction is "
-                 "always told its sender");
+            at + "<conveyProducingFederate> can't be disabled: receivers of an interaction "
+                 "always learn its sender");
   EXPECT_EQ(complaint(R"(<automaticResignAction resignAction="Explode"/>)"),
             at + "<automaticResignAction> of <switches> has resignAction \"Explode\"; allowed are "
                  "the standard's, such as CancelThenDeleteThenDivest");

@@ -1,4 +1,4 @@
-// How declarations change, ours and others'.
+// Changes of the own declarations and of others' subscriptions.
 #include "rti/federate/books/declared_classes.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Which classes a federate publishes, and what others hear of them.
+// The classes that a federate publishes, and the part to which others subscribe.
 #pragma once
 
 #include <cassert>
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// Written by `Declarations` alone.
+/// Only `FederateDeclarations` changes it.
 class DeclaredClasses {
  public:
   explicit DeclaredClasses(const Fom& fom)
@@ -27,8 +27,8 @@ class DeclaredClasses {
   bool is_published(InteractionClassHandle interaction_class) const {
     return !at(interaction_class).published.is_empty();
   }
-  /// What others hear, as the RTI told; all until then, and what is not published: whoever sends
-  /// that shall be told so.
+  /// The attributes to which others subscribe, as the RTI last advised; all before the first advice
+  /// and for a class that is not published, so that sending it meets the error.
   AttributeSet subscribed(ObjectClassHandle object_class) const {
     return at(object_class).others.subscribed;
   }
@@ -38,11 +38,11 @@ class DeclaredClasses {
 
   void publish(ObjectClassHandle object_class, AttributeSet attributes);
   void publish(InteractionClassHandle interaction_class, bool is_published);
-  /// What the RTI told of others' subscriptions. It must be published.
+  /// Notes the RTI's advice about others' subscriptions. The class must be published.
   void set_others(ObjectClassHandle object_class, const Subscription& others);
   void set_others(InteractionClassHandle interaction_class, const Subscription& others);
-  /// Whether the class became relevant (true), or ceased to be (false), since the federate was last
-  /// told; while its switch is off nothing counts as told.
+  /// True if the class became relevant, false if it ceased to be, since the federate was last
+  /// notified; nothing if neither. While the switch is off nothing counts as notified.
   std::optional<bool> turn(ObjectClassHandle object_class, bool is_on);
   std::optional<bool> turn(InteractionClassHandle interaction_class, bool is_on);
 
@@ -54,7 +54,7 @@ class DeclaredClasses {
   struct Class {
     AttributeSet published;  ///< 1 for an interaction class
     Subscription others{AttributeSet(~0u), {}};
-    bool is_relevant = false;  ///< as the federate was told
+    bool is_relevant = false;  ///< as the federate was last notified
   };
   static std::optional<bool> turn(Class& declared, bool is_on);
   const Class& at(ObjectClassHandle object_class) const {

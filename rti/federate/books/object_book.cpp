@@ -1,4 +1,4 @@
-// How objects come into the book and leave it.
+// How objects enter a federate's records and leave them.
 #include "rti/federate/books/object_book.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool ObjectBook::is_gone(ObjectHandle object) const {
          std::ranges::find(gone_, object, &GoneObject::object) != gone_.end();
 }
 
-/// Memory follows what is left of the used block, not what it held.
+/// Only the objects left of the used block are kept, so memory follows their number.
 void ObjectBook::begin_further_block() {
   for (std::uint32_t number = 0; number < own_.size(); ++number)
     if (own_[number].object_class != KnownObject::unknown) others_[handle(number)] = own_[number];
@@ -49,7 +49,7 @@ bool ObjectBook::discover(ObjectHandle object, ObjectClassHandle object_class) {
   return true;
 }
 
-/// Of one that is known or hidden; nothing moves.
+/// The place of an object that is known or hidden; nothing moves.
 KnownObject& ObjectBook::place_of(ObjectHandle object) {
   if (!is_ours(object)) {
     KnownObject* known = others_.find(object);

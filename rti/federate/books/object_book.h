@@ -1,5 +1,5 @@
-// The objects that a federate registered or discovered, and what it forgot while the RTI may still
-// speak of it.
+// The objects that a federate registered or discovered, and those that it forgot while messages
+// about them may still arrive.
 #pragma once
 
 #include <cassert>
@@ -13,23 +13,25 @@
 
 namespace rink::rti {
 
-/// Own objects lie in an array by their number within the block of handles that the RTI gave; those
-/// of others, few of many, in a map, so memory follows what is in sight.
+/// Own objects are in an array by their number within the block of handles that the RTI gave; those
+/// of others, few of many, in a map, so memory follows what is in scope.
 class ObjectBook {
  public:
-  /// The federate has joined and was given this block.
+  /// The federate has joined and received this block of handles.
   void begin(std::uint32_t block) { block_ = block; }
-  /// Another, for when the first is used up. False if one waits already, or it is the same.
+  /// Adds a block for when the first is used up. False if one waits already, or it is the same
+  /// block.
   bool add_block(std::uint32_t block);
 
-  /// Of the block at hand.
+  /// True if the handle is in the present block.
   bool is_ours(ObjectHandle object) const { return object.value / object_block == block_; }
-  /// Registered here, be it in a block that is used up: what is left of such a block is kept as
-  /// what was acquired from others.
+  /// True if this federate registered the object, also in a block that is used up: objects left of
+  /// such a block are kept like those of others.
   bool was_registered_here(ObjectHandle object) const {
     return is_ours(object) || is_in_former_block(object);
   }
-  /// Null if it is not known, or its deletion is under way. Valid until one is added or forgotten.
+  /// Null if the object is not known, or its deletion is under way. Valid until an object is added
+  /// or forgotten.
   const KnownObject* find(ObjectHandle object) const {
     if (!is_ours(object)) {
       const KnownObject* known = others_.find(object);
@@ -39,8 +41,8 @@ class ObjectBook {
     const bool is_known = number < own_.size() && own_[number].object_class != KnownObject::unknown;
     return is_known ? &own_[number] : nullptr;
   }
-  /// True of an object that was deleted or forgotten here: what the RTI still says of it, it said
-  /// before it heard so.
+  /// True of an object that was deleted or forgotten here: messages about it were sent before the
+  /// RTI knew.
   bool is_gone(ObjectHandle object) const;
   /// Calls `visit(ObjectHandle, const KnownObject&)` for each.
   template <class Visit>
@@ -50,24 +52,26 @@ class ObjectBook {
     others_.for_each(visit);
   }
 
-  /// False if every handle that we were given is in use.
+  /// False if every handle that the RTI gave is in use.
   bool has_handle() const { return registered_count_ < object_block || further_block_; }
-  /// Registers one, owned whole. There must be a handle for it.
+  /// Registers an object, owned whole. There must be a free handle.
   ObjectHandle add(ObjectClassHandle object_class);
-  /// One of others; false if its handle is ours, or is known already.
+  /// Adds an object of another federate; false if its handle is in the present block or known
+  /// already.
   bool discover(ObjectHandle object, ObjectClassHandle object_class);
-  /// Whether all of a known object is owned here.
+  /// Notes whether all of a known object is owned here.
   void set_own(ObjectHandle object, bool is_own) { place_of(object).is_own = is_own; }
 
-  /// The RTI has taken it away.
+  /// The RTI has removed the object.
   void remove(ObjectHandle object);
-  /// The federate deleted or forgot it, and the RTI may not have heard so yet.
+  /// The federate deleted or forgot the object, and the RTI may not know it yet.
   void leave(ObjectHandle object);
-  /// The RTI has heard so: it says nothing more of it, unless it is discovered anew.
+  /// The RTI knows that the object was deleted or forgotten: no messages about it follow unless it
+  /// is discovered anew.
   void settle_gone(ObjectHandle object);
-  /// What was settled is forgotten at the end of its frame.
+  /// Forgets what was settled; called at the end of its frame.
   void sweep();
-  /// It is deleted at a time to come; until then `restore` gives it back as it was.
+  /// The object is deleted at a later logical time; until then `restore` gives it back as it was.
   KnownObject hide(ObjectHandle object);
   void restore(ObjectHandle object, const KnownObject& known);
 

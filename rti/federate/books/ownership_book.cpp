@@ -1,4 +1,4 @@
-// What is owned, and how holdings come and go.
+// Checks and changes of what a federate owns.
 #include "rti/federate/books/ownership_book.h"
 
 #include <vector>
@@ -77,8 +77,7 @@ void OwnershipBook::settle(ObjectHandle object) {
   const Holding& holding = *holdings_.find(object);
   const bool is_own = holding.owned == all_of(*objects_.find(object));
   objects_.set_own(object, is_own);
-  if (holding.owned.is_empty())
-    regions_.forget(object);  // its regions are the new owner's to associate
+  if (holding.owned.is_empty()) regions_.forget(object);  // the new owner associates its regions
   if ((is_own || holding.owned.is_empty()) && holding.offered.is_empty() &&
       holding.pending().is_empty())
     holdings_.erase(object);

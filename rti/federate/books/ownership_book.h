@@ -11,8 +11,8 @@
 
 namespace rink::rti {
 
-/// All or nothing, and nothing under way, is said by an object's entry alone; only what is owned in
-/// part or negotiated about has a holding.
+/// An object that is owned whole or not at all, with no negotiation under way, has its entry alone;
+/// only one that is owned in part or negotiated about has a holding.
 class OwnershipBook {
  public:
   OwnershipBook(const AmbassadorBasis& basis, ObjectBook& objects, RegionBook& regions)
@@ -26,12 +26,12 @@ class OwnershipBook {
            AttributeSet{privilege_to_delete_object};
   }
   AttributeSet owned_of(ObjectHandle object, const KnownObject& known) const;
-  /// None of one that is not known.
+  /// Empty if the object is not known.
   AttributeSet owned_of(ObjectHandle object) const;
   AttributeSet offered_of(ObjectHandle object) const;
   AttributeSet pending_of(ObjectHandle object) const;
   const Holding* find(ObjectHandle object) const { return holdings_.find(object); }
-  /// Whether what is owned whole ends with its federate, however that leaves.
+  /// True if objects that are owned whole are deleted when the federate leaves, in whatever way.
   bool is_deleting() const { return is_deleting_; }
   void set_directive(ResignAction action) { is_deleting_ = deletes(action); }
 
@@ -42,8 +42,8 @@ class OwnershipBook {
   /// Throws FederateOwnsAttributes, OwnershipAcquisitionPending where the action leaves some.
   void require_resignable(ResignAction action) const;
 
-  /// Calls `change(Holding&)`, and forgets the holding if it says no more than the object's entry.
-  /// The object must be known.
+  /// Calls `change(Holding&)`, and forgets the holding if the object's entry suffices. The object
+  /// must be known.
   template <class Change>
   void change(ObjectHandle object, Change change) {
     change(open(object));
@@ -55,8 +55,8 @@ class OwnershipBook {
     change(open(object));
     assert(!pending_of(object).is_empty());
   }
-  /// What of the class is owned is given up with its publication, at the RTI too. `is_all`: the
-  /// privilege to delete as well. Throws OwnershipAcquisitionPending.
+  /// Gives up owned attributes of the class with its publication; the RTI does the same. `is_all`:
+  /// the privilege to delete as well. Throws OwnershipAcquisitionPending.
   void withdraw(ObjectClassHandle object_class, AttributeSet attributes, bool is_all);
   void forget(ObjectHandle object) { holdings_.erase(object); }
 

@@ -1,4 +1,4 @@
-// How services refuse what may not be asked of them.
+// Checks by which services refuse invalid arguments.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace rink::rti {
 
-/// As exceptions call it.
+/// The object's name in exceptions.
 inline std::string name_of(ObjectHandle object) { return "object " + std::to_string(object.value); }
 
 inline void require(bool is_met, HlaError error, ObjectHandle object, std::string_view expected) {

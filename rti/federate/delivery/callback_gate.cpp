@@ -1,4 +1,4 @@
-// How callbacks wait.
+// Holds callbacks back and evokes them.
 #include "rti/federate/delivery/callback_gate.h"
 
 #include <cassert>

@@ -1,4 +1,5 @@
-// When a federate is told: at once, when it asks, or when it allows it again.
+// Decides when callbacks are delivered: at once, when the federate evokes them, or when it enables
+// them again.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +14,11 @@
 
 namespace rink::rti {
 
-/// In the immediate model what comes while callbacks are disabled is held back unread; in the
-/// evoked model it is read at once and its callbacks wait in a queue.
+/// In the immediate model messages that arrive while callbacks are disabled are held back unread;
+/// in the evoked model they are read at once and their callbacks wait in a queue.
 class CallbackGate {
  public:
-  /// Of callbacks that wait to be evoked, or of what they would be made of [bytes].
+  /// Limit of the callbacks that wait to be evoked, or of the messages held back [bytes].
   static constexpr std::size_t waiting_max = 64u << 20;
 
   /// `federate` must outlive it.
@@ -26,24 +27,25 @@ class CallbackGate {
                                               : nullptr),
         callbacks_(queue_ ? *queue_ : federate) {}
 
-  /// Where callbacks go.
+  /// The receiver of callbacks.
   FederateAmbassador& callbacks() const { return callbacks_; }
-  /// Whether what comes may be read now.
+  /// True if messages may be read now.
   bool is_open() const { return are_enabled_ || queue_; }
   void disable() { are_enabled_ = false; }
   void enable() { are_enabled_ = true; }
 
-  /// Whether some are left. Throws CallNotAllowedFromWithinCallback.
+  /// Returns whether more wait. Throws CallNotAllowedFromWithinCallback.
   bool evoke(std::size_t count_max);
-  /// Whether more callbacks wait than may.
+  /// True if more callbacks wait than the limit allows.
   bool is_overfull() const { return queue_ && queue_->waiting_bytes() > waiting_max; }
 
-  /// What nobody may be told of yet. Must be closed. False if that is too much.
+  /// Holds bytes back. The gate must be closed. False if they exceed the limit.
   bool hold(Bytes bytes);
-  /// The connection is gone; that is told after what came before. Must be closed.
+  /// Holds back that the connection is lost, until what came before is delivered. The gate must be
+  /// closed.
   void hold_loss(std::string_view why);
   std::vector<std::byte> take_held() { return std::exchange(held_, {}); }
-  /// Empty if it was not lost.
+  /// Empty if the connection was not lost.
   std::string take_held_loss() { return std::exchange(held_loss_, {}); }
 
   std::size_t memory_bytes() const {

@@ -1,4 +1,4 @@
-// How datagrams wait, and what is in them.
+// Applies datagrams, and holds them until the frames that they rely on have come.
 #include "rti/federate/delivery/datagram_receiver.h"
 
 #include <cassert>
@@ -21,7 +21,7 @@ void DatagramReceiver::receive(Bytes datagram, bool is_gate_open) {
   else ++basis_.counters.datagrams_ignored;
 }
 
-/// Its head has been read once.
+/// The head of the datagram has been read once already, without fault.
 void DatagramReceiver::apply(Bytes datagram) {
   DatagramHead head;
   Reader reader(datagram);

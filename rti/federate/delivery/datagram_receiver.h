@@ -24,19 +24,19 @@ class DatagramReceiver {
   };
   DatagramReceiver(const AmbassadorBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
-  /// Must be joined. It may speak of objects that a frame on its way tells of: then it waits for
-  /// that, and while the gate is closed, for frames are held back too.
+  /// The federate must be joined. A datagram that names objects of a frame still on its way waits
+  /// for the frame; it also waits while the gate is closed, since frames are held back too.
   void receive(Bytes datagram, bool is_gate_open);
   /// Frames have come, or the gate has opened.
   void apply_held();
   void advance_clock();
-  /// What is to go out, empty if nothing; until it has gone.
+  /// The acknowledgement to send, empty if none; valid until it is cleared.
   Bytes acknowledgement() const { return acknowledgement_; }
   void clear_acknowledgement() { acknowledgement_.clear(); }
   std::size_t memory_bytes() const { return acknowledgement_.capacity(); }
 
  private:
-  /// Datagrams that wait for their frames; more are lost, and come again.
+  /// The most datagrams that wait for their frames; others are dropped, and sent again.
   static constexpr std::size_t held_max = 256;
   void apply(Bytes datagram);
   bool read(const DatagramHead& head, Reader& reader);

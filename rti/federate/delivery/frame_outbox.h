@@ -1,4 +1,5 @@
-// What waits to go to the RTI by the stream: messages in frames, and the blocks that still grow.
+// The messages that wait to be sent to the RTI by the stream: frames, and the blocks that still
+// grow.
 #pragma once
 
 #include <cassert>
@@ -13,7 +14,7 @@
 
 namespace rink::rti {
 
-/// What updates that go in one block have in common.
+/// The common header of the updates in one block.
 struct UpdateHeader {
   ObjectClassHandle object_class;
   AttributeSet attributes;
@@ -27,22 +28,22 @@ class FrameOutbox {
   /// Must outlive it.
   explicit FrameOutbox(const JoinPhase& phase) : phase_(phase), frames_(frame_max_to_rti) {}
 
-  /// The block of updates that grows at the end is over. Throws FederateNotExecutionMember.
+  /// Appends a message, which ends a growing block of updates. Throws FederateNotExecutionMember.
   template <class Message>
   void enqueue(Message message) {
     phase_.require_sending();
     append(message);
   }
-  /// In a frame of its own: a host reads the first message of a frame to know whom it concerns, and
-  /// before a federate is let in it may only send short frames.
+  /// Appends a message in a frame of its own: a host routes a frame by its first message, and
+  /// before a federate has joined it may only send short frames.
   template <class Message>
   void enqueue_alone(Message message) {
     frames_.close_frame();
     append(message);
     frames_.close_frame();
   }
-  /// The header of `object`, in one block with those before it if they had an equal one. Must be
-  /// joined.
+  /// Appends `object` to the block at the end if that has an equal header, else begins a block. The
+  /// federate must be joined.
   template <class Header>
   void enqueue_in_block(Header header, ObjectHandle object) {
     assert(phase_.is_joined());
@@ -55,9 +56,9 @@ class FrameOutbox {
   /// `values` are coded, at most `values_max` bytes. True if the update began a block.
   bool enqueue_update(const UpdateHeader& header, ObjectHandle object, Bytes values);
 
-  /// What follows stands in another frame and another block.
+  /// Messages that follow are in another frame and another block.
   void close_frame();
-  /// The frames to come are counted by `frames_since_join`.
+  /// `frames_since_join` counts the frames that follow.
   void count_from_here() { frames_to_join_ = frames_.frame_count(); }
   std::uint32_t frames_since_join() const {
     return static_cast<std::uint32_t>(frames_.frame_count() - frames_to_join_);
@@ -66,7 +67,7 @@ class FrameOutbox {
 
   Bytes bytes() const { return frames_.bytes(); }
   bool is_empty() const { return frames_.bytes().empty(); }
-  /// All of it is on its way.
+  /// Clears what has been sent.
   void clear();
   std::size_t memory_bytes() const { return frames_.memory_bytes(); }
 
@@ -86,8 +87,8 @@ class FrameOutbox {
   bool has_open_updates_ = false;
   std::uint32_t last_object_ = 0;     ///< in that block
   Stamp stamp_;                       ///< the last one sent
-  std::uint64_t stamped_frame_ = 0;   ///< the frame that it is in: a stamp is good for its frame
-  std::uint64_t frames_to_join_ = 0;  ///< up to the one that asks to join
+  std::uint64_t stamped_frame_ = 0;   ///< the frame that it is in: a stamp holds for its frame
+  std::uint64_t frames_to_join_ = 0;  ///< frames up to the one that asks to join
 };
 
 }  // namespace rink::rti

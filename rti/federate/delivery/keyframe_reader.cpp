@@ -1,4 +1,4 @@
-// Records of periodic state, each a value in full or differences to a keyframe.
+// Reads records of periodic state, each a value in full or differences to a keyframe.
 #include "rti/federate/delivery/keyframe_reader.h"
 
 #include <cassert>
@@ -46,7 +46,8 @@ bool KeyframeReader::handle_deltas(Reader& reader, const ReadContext& context) {
   return bits.finish() && reader.rest(read, bits.bytes_read());
 }
 
-/// Whether every baseline was there; nothing if it is malformed. Stops where a callback resigns.
+/// True if every baseline was known; nothing if the block is malformed. Stops where a callback
+/// resigns.
 std::optional<bool> KeyframeReader::read_records(BitReader& bits, const Block& block) {
   bool has_baselines = true;
   for (std::uint32_t object = 0;;) {
@@ -76,7 +77,7 @@ void KeyframeReader::reflect(const Block& block, ObjectHandle object) {
   basis_.callbacks.reflect_attribute_values(object, attributes, decoded_, block.stamp);
 }
 
-/// Decodes one record into `decoded_` and keeps it if a keyframe is being told.
+/// Decodes one record into `decoded_` and keeps it if it belongs to a keyframe.
 KeyframeReader::Status KeyframeReader::read_record(BitReader& bits, const Block& block,
                                                    std::uint32_t object) {
   bool is_absolute = false;
@@ -87,7 +88,7 @@ KeyframeReader::Status KeyframeReader::read_record(BitReader& bits, const Block&
   if (is_absolute) {
     const std::optional<bool> is_quantised = block.codec.decode(bits, counts, decoded_);
     if (!is_quantised) return Status::malformed;
-    if (!*is_quantised) return Status::decoded;  // in full: nobody's baseline
+    if (!*is_quantised) return Status::decoded;  // in full: no baseline for later differences
   } else {
     const Status status = read_differences(bits, block, object, counts);
     if (status != Status::decoded) return status;

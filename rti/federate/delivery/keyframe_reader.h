@@ -26,13 +26,13 @@ class KeyframeReader {
 
   bool handle_begin(Reader& reader);
   bool handle_deltas(Reader& reader, const ReadContext& context);
-  /// The frame is over, and with it the keyframe in it, if any.
+  /// The frame has ended, and with it the keyframe in it, if any.
   void end_frame();
   std::size_t memory_bytes() const { return keyframes_.memory_bytes() + decoded_.capacity(); }
 
  private:
   enum class Status : std::uint8_t { decoded, no_baseline, malformed };
-  /// What the records of one message have in common.
+  /// The common header of the records of one message.
   struct Block {
     std::uint16_t object_class;
     AttributeHandle attribute;
@@ -50,7 +50,7 @@ class KeyframeReader {
   const ObjectBook& objects_;
   UpdateArrivals& arrivals_;
   KeyframeMemory keyframes_;
-  std::vector<std::byte> decoded_;  ///< the value of the record at hand
+  std::vector<std::byte> decoded_;  ///< the value of the record that is read
 };
 
 }  // namespace rink::rti

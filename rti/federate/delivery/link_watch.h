@@ -7,7 +7,7 @@
 
 namespace rink::rti {
 
-/// Follows the clock that is handed in; what happens between two advances counts as of the later.
+/// Follows the caller's clock; an event between two advances counts as of the later.
 class LinkWatch {
  public:
   explicit LinkWatch(const Timeouts& timeouts) : timeouts_(timeouts) {}
@@ -15,7 +15,7 @@ class LinkWatch {
   double now() const { return now_; }  ///< as the clock was last advanced [s]
   void received() { has_received_ = true; }
   void sent() { has_sent_ = true; }
-  /// `is_sending`: something waits to go out.
+  /// `is_sending`: bytes wait to be sent.
   void advance(double now, bool is_sending) {
     now_ = now;
     if (!has_clock_) last_received_ = last_sent_ = now;

@@ -1,4 +1,4 @@
-// What is kept of a message that waits.
+// Keeps messages as bytes until they may be delivered.
 #include "rti/federate/delivery/postponed_messages.h"
 
 #include "rti/wire/update_block.h"
@@ -23,7 +23,7 @@ bool PostponedMessages::keep(Reader& reader, MessageKind kind, const ReadContext
   return true;
 }
 
-/// Reads over a message, as if it were handled.
+/// Steps over a message.
 bool PostponedMessages::skip(Reader& reader, MessageKind kind) const {
   if (kind == MessageKind::updates) {
     UpdatesMessage message;

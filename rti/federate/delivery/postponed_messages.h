@@ -15,12 +15,12 @@ class PostponedMessages {
  public:
   explicit PostponedMessages(const Fom& fom) : fom_(fom) {}
 
-  /// Keeps one message, with its stamp if it needs one. False if it makes no sense.
+  /// Keeps one message, with its stamp if it needs one. False if it is malformed.
   bool keep(Reader& reader, MessageKind kind, const ReadContext& context);
   bool is_empty() const { return bytes_.empty(); }
-  /// More than a federate that never advances is kept.
+  /// True if a federate that never advances has let too much wait.
   bool is_overfull() const { return bytes_.size() > size_max; }
-  /// Messages, one after the other.
+  /// The messages, one after the other.
   std::vector<std::byte> take() { return std::exchange(bytes_, {}); }
   std::size_t memory_bytes() const { return bytes_.capacity(); }
 

@@ -1,4 +1,4 @@
-// What a federate has sent of each class, as far as that decides what must follow.
+// The attributes of each class that a federate has sent, and its newest stamp.
 #pragma once
 
 #include <cassert>
@@ -19,9 +19,9 @@ class SentUpdates {
     sent = sent | header.attributes;
     newest_ = header.stamp;
   }
-  /// An update was kept back.
+  /// Notes an update that was kept back.
   void note_spared(const Stamp& stamp) { newest_ = stamp; }
-  /// An update of these was sent once: the RTI may hold a value.
+  /// The attributes of which an update was sent once: the RTI may hold a value.
   AttributeSet of(ObjectClassHandle object_class) const {
     assert(object_class.value < attributes_.size());
     return attributes_[object_class.value];

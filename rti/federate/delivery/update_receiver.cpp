@@ -1,4 +1,4 @@
-// Blocks of updates, object by object.
+// Reads blocks of updates, object by object.
 #include "rti/federate/delivery/update_receiver.h"
 
 #include <bit>
@@ -60,8 +60,8 @@ bool UpdateReceiver::handle_datagram_updates(Reader& reader, const DatagramHead&
   const bool is_read = read_records(
       reader, block.object_class, block.attributes, [&](std::uint32_t object, Bytes values) {
         const KnownObject* known = objects_.find({object});
-        // One that is unknown or out of scope by now has been told of since this was said, or will
-        // be, with its whole state.
+        // An object that is unknown or out of scope by now has been or will be sent with its full
+        // state.
         const bool is_known = known != nullptr && known->object_class == message.object_class;
         const AttributeSet accepted =
             is_known ? arrivals_.accept({object}, message.object_class, block.attributes, head)
@@ -86,7 +86,7 @@ bool UpdateReceiver::reflect_datagram(const Block& block, ObjectHandle object,
   return basis_.phase.is_joined();
 }
 
-/// The values of `accepted` alone.
+/// Returns the values of `accepted` alone.
 Bytes UpdateReceiver::choose(const Block& block, AttributeSet accepted, Bytes values) {
   chosen_.clear();
   for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {

@@ -1,4 +1,4 @@
-// Updates and interactions of others on their way to callbacks: read, decoded, and told.
+// Reads and decodes updates and interactions of others, and delivers them by callbacks.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace rink::rti {
 
-/// Its buffers are not those of what is sent: a callback may send updates while it reads values.
+/// Its buffers differ from those of sending: a callback may send updates while it reads values.
 class UpdateReceiver {
  public:
   UpdateReceiver(const AmbassadorBasis& basis, const ObjectBook& objects, UpdateArrivals& arrivals)
       : basis_(basis), objects_(objects), arrivals_(arrivals) {}
 
   static bool handle_stamp(Reader& reader, ReadContext& context);
-  /// From a frame: whatever is in it is newer than what came before.
+  /// Handles updates from a frame, which are newer than all that came before.
   bool handle_updates(Reader& reader, const ReadContext& context);
-  /// From a datagram: only best-effort values, and of them only those that are no older than what
-  /// is known.
+  /// Handles updates from a datagram: of its best-effort values, those that are not older than the
+  /// known ones.
   bool handle_datagram_updates(Reader& reader, const DatagramHead& head,
                                const ReadContext& context);
   bool handle_interaction(Reader& reader, const ReadContext& context);

@@ -1,4 +1,4 @@
-// Which way updates go, and what becomes of those that are lost on theirs.
+// Chooses datagrams or the stream for each update, and repairs lost datagrams.
 #include "rti/federate/delivery/update_sender.h"
 
 #include <cassert>
@@ -16,7 +16,7 @@ UpdateSender::~UpdateSender() = default;
 void UpdateSender::expect_datagrams(std::size_t size_max) {
   const ArrivalOrder& order = uses_.arrivals.order();
   if (!outbox_ && size_max >= BestEffortOutbox::size_min && order.has_best_effort()) {
-    // Who publishes no such attribute, as most of a crowd, needs none.
+    // A federate that publishes no best-effort attribute, such as most of a crowd, needs no outbox.
     for (std::uint32_t i = 0; i < uses_.classes.object_class_count() && !outbox_; ++i)
       if (!(uses_.classes.published({i}) & order.best_effort(static_cast<std::uint16_t>(i)))
                .is_empty())
@@ -25,7 +25,8 @@ void UpdateSender::expect_datagrams(std::size_t size_max) {
   if (outbox_) outbox_->set_size(size_max);
 }
 
-/// Who keeps time, or leaves objects behind, sends everything by the stream.
+/// The attributes that travel by datagram: none if the federate uses time management or its objects
+/// outlive it.
 AttributeSet UpdateSender::by_datagram(ObjectHandle object, ObjectClassHandle object_class) const {
   if (!outbox_ || !outbox_->is_usable() || keeps_time_ || !uses_.ownership.is_deleting()) return {};
   const AttributeSet* reliable = made_reliable_.find(object);
@@ -46,7 +47,8 @@ void UpdateSender::send_by_stream(const UpdateHeader& header, ObjectHandle objec
   ++basis_.counters.updates_sent;
 }
 
-/// Sends those of an update that go by datagram, and leaves the others, with their values.
+/// Sends the part of an update that travels by datagram. Returns the other attributes and leaves
+/// their values in `values`.
 AttributeSet UpdateSender::send_by_datagram(const UpdateHeader& header, ObjectHandle object,
                                             Bytes& values) {
   assert(outbox_);

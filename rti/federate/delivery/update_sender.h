@@ -1,5 +1,5 @@
-// Updates on their way to the RTI: by datagram where there is a way, else by the stream, and never
-// out of order between the two.
+// Sends updates to the RTI: by datagram where there is a channel, else by the stream, and never out
+// of order between the two.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace rink::rti {
 
 class BestEffortOutbox;
 
-/// Values are coded. Its buffers are not those of what is received: callbacks may send.
+/// Values are coded. Its buffers differ from those of receiving: callbacks may send.
 class UpdateSender {
  public:
   struct Uses {
@@ -34,32 +34,33 @@ class UpdateSender {
   UpdateSender(const AmbassadorBasis& basis, const Uses& uses);
   ~UpdateSender();
 
-  /// There is a way for datagrams of at most so many bytes; 0: none any more.
+  /// Opens a channel for datagrams of at most so many bytes; 0 closes it.
   void expect_datagrams(std::size_t size_max);
-  /// By whichever way each attribute goes.
+  /// Sends each attribute by its own channel.
   void send(const UpdateHeader& header, ObjectHandle object, Bytes values);
   void send_by_stream(const UpdateHeader& header, ObjectHandle object, Bytes values);
-  /// Something about these attributes goes by the stream. What was sent of any by datagram was sent
-  /// before: in a frame that is over.
+  /// Call it before anything about these attributes is sent by the stream: it seals pending
+  /// datagrams of them and ends the frame, so that both keep their order.
   void before_stream(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes);
 
-  /// Sends by the stream what went by datagram, for it may outlive its owner or go to another: of
-  /// an object, of a class, of all.
+  /// Sends again by the stream what was sent by datagram, since it may outlive its owner or change
+  /// owners: of an object, of a class, of all.
   void release(ObjectHandle object, AttributeSet attributes);
   void release(ObjectClassHandle object_class);
   void release_all();
-  /// Who keeps time sends everything by the stream.
+  /// From now on everything is sent by the stream, since the federate uses time management.
   void keep_time();
   void make_reliable(ObjectHandle object, AttributeSet attributes);
   void make_best_effort(ObjectHandle object, AttributeSet attributes);
   void forget(ObjectHandle object);
 
-  /// What was lost is sent again as it is now: by datagram or, if there is no way any more, by the
-  /// stream.
+  /// Sends the present values of what was lost again: by datagram or, if the channel has closed, by
+  /// the stream.
   void repair();
-  /// False if it acknowledges what was never sent.
+  /// False if it acknowledges a datagram that was never sent.
   bool acknowledge(const AcknowledgeDatagramsMessage& message);
-  /// An acknowledgement of ours goes first, if there is one. Valid until `clear_datagrams`.
+  /// The datagrams to send, `acknowledgement` first if it is not empty. Valid until
+  /// `clear_datagrams`.
   std::span<const Datagram> datagrams(Bytes acknowledgement);
   void clear_datagrams();
   std::size_t memory_bytes() const;
@@ -70,10 +71,11 @@ class UpdateSender {
 
   AmbassadorBasis basis_;
   Uses uses_;
-  std::unique_ptr<BestEffortOutbox> outbox_;  ///< null until there is a way and something to send
-  ObjectMap<AttributeSet> made_reliable_;     ///< of objects of ours
+  std::unique_ptr<BestEffortOutbox> outbox_;  ///< null until there is a channel and something to
+                                              ///< send
+  ObjectMap<AttributeSet> made_reliable_;     ///< of own objects
   bool keeps_time_ = false;
-  std::vector<std::byte> best_effort_values_, other_values_;  ///< of the update at hand, parted
+  std::vector<std::byte> best_effort_values_, other_values_;  ///< parts of the update that is sent
   std::vector<Datagram> datagrams_;                           ///< that go out
 };
 

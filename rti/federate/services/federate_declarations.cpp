@@ -1,4 +1,4 @@
-// What a federate declares, and what the RTI tells it of others' declarations.
+// A federate's declarations, and the RTI's advice about those of others.
 #include "rti/federate/services/federate_declarations.h"
 
 #include <optional>
@@ -82,7 +82,7 @@ void FederateDeclarations::subscribe(InteractionClassHandle interaction_class,
 void FederateDeclarations::switch_advisory(Advisory advisory, bool is_on) {
   basis_.phase.require_joined();
   if (this->is_on(advisory) == is_on)
-    throw RtiException(already(advisory, is_on), "it is so already");
+    throw RtiException(already(advisory, is_on), "the switch has that value already");
   switches_ ^= 1u << static_cast<unsigned>(advisory);
   if (advisory == Advisory::attribute_relevance) {
     relevant_objects_ = {};
@@ -104,7 +104,7 @@ void FederateDeclarations::advise_all(Advisory advisory) {
       advise(InteractionClassHandle{i});
 }
 
-/// 5.10, 5.11.
+/// Starts or stops registration (5.10, 5.11).
 void FederateDeclarations::advise(ObjectClassHandle object_class) {
   const std::optional<bool> is_relevant =
       uses_.classes.turn(object_class, is_on(Advisory::object_class_relevance));
@@ -113,7 +113,7 @@ void FederateDeclarations::advise(ObjectClassHandle object_class) {
   else basis_.callbacks.stop_registration_for_object_class(object_class);
 }
 
-/// 5.12, 5.13.
+/// Turns interactions on or off (5.12, 5.13).
 void FederateDeclarations::advise(InteractionClassHandle interaction_class) {
   const std::optional<bool> is_relevant =
       uses_.classes.turn(interaction_class, is_on(Advisory::interaction_relevance));
@@ -122,7 +122,7 @@ void FederateDeclarations::advise(InteractionClassHandle interaction_class) {
   else basis_.callbacks.turn_interactions_off(interaction_class);
 }
 
-/// What crossed a withdrawal of ours on its way is of no concern any more.
+/// Advice that crossed the own withdrawal on its way is ignored.
 bool FederateDeclarations::handle_class_relevance(Reader& reader) {
   ClassRelevanceMessage message;
   if (!exchange(reader, message)) return false;
@@ -144,7 +144,7 @@ bool FederateDeclarations::handle_class_relevance(Reader& reader) {
   return true;
 }
 
-/// 6.21, 6.22.
+/// Turns updates on or off (6.21, 6.22).
 bool FederateDeclarations::handle_object_relevance(Reader& reader) {
   ObjectRelevanceMessage message;
   if (!exchange(reader, message)) return false;

@@ -26,13 +26,14 @@ class FederateDeclarations {
   void subscribe(ObjectClassHandle object_class, AttributeSet attributes, RegionHandle region,
                  bool is_active);
   void subscribe(InteractionClassHandle interaction_class, Listening listening);
-  /// What is so already throws ObjectClassRelevanceAdvisorySwitchIsOn and its kin.
+  /// Setting a switch to the value that it has throws ObjectClassRelevanceAdvisorySwitchIsOn or its
+  /// like.
   void switch_advisory(Advisory advisory, bool is_on);
   bool is_on(Advisory advisory) const {
     return (switches_ >> static_cast<unsigned>(advisory) & 1u) != 0;
   }
 
-  /// The RTI hears of a switch that is on at first.
+  /// Notifies the RTI of switches that are on from the start.
   void joined();
   bool handle_class_relevance(Reader& reader);
   bool handle_object_relevance(Reader& reader);
@@ -45,10 +46,10 @@ class FederateDeclarations {
 
   AmbassadorBasis basis_;
   Uses uses_;
-  ObjectMap<AttributeSet> relevant_objects_;  ///< own ones: attributes in somebody's scope, as far
-                                              ///< as the federate was told
-  unsigned switches_;  ///< by `Advisory`, at first as the model says; the relevance of single
-                       ///< attributes costs messages
+  ObjectMap<AttributeSet> relevant_objects_;  ///< own objects: attributes in some federate's scope,
+                                              ///< as last notified
+  unsigned switches_;  ///< by `Advisory`, first as in the model; relevance of single attributes
+                       ///< costs messages
 };
 
 }  // namespace rink::rti

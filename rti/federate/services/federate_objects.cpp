@@ -1,4 +1,4 @@
-// How objects come and go at their federate's side.
+// Registers, discovers and deletes objects at their federate's side.
 #include "rti/federate/services/federate_objects.h"
 
 #include "rti/federate/books/require.h"
@@ -34,7 +34,7 @@ ObjectHandle FederateObjects::register_instance(ObjectClassHandle object_class,
   return object;
 }
 
-/// What is kept of an object beside its entry in the book.
+/// Forgets all that is kept of an object beside its entry in `ObjectBook`.
 void FederateObjects::forget(ObjectHandle object) {
   uses_.ownership.forget(object);
   uses_.regions.forget(object);
@@ -55,7 +55,7 @@ void FederateObjects::delete_instance(ObjectHandle object) {
 void FederateObjects::forget_instance(ObjectHandle object) {
   const KnownObject& known = uses_.ownership.require_known(object, {});
   require(uses_.ownership.owned_of(object, known).is_empty(), HlaError::federate_owns_attributes,
-          object, "what is owned can't be forgotten");
+          object, "an object with owned attributes cannot be forgotten");
   require(uses_.ownership.pending_of(object).is_empty(), HlaError::ownership_acquisition_pending,
           object, "cancel the acquisition first");
   uses_.arrivals.leave(object);

@@ -1,5 +1,5 @@
-// Objects as their federate registers, discovers, asks for and deletes them (IEEE 1516.1-2010,
-// clause 6).
+// The services by which a federate registers, discovers, requests and deletes objects (IEEE
+// 1516.1-2010, clause 6).
 #pragma once
 
 #include <string_view>

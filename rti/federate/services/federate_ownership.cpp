@@ -1,4 +1,4 @@
-// Requests about ownership, each noted in the book as soon as it is sent.
+// Requests about ownership, each noted in `OwnershipBook` as soon as it is sent.
 #include "rti/federate/services/federate_ownership.h"
 
 #include "rti/federate/books/require.h"
@@ -30,7 +30,8 @@ void FederateOwnership::divest(ObjectHandle object, AttributeSet attributes) {
 void FederateOwnership::offer(ObjectHandle object, AttributeSet attributes, Bytes tag) {
   uses_.book.require_owned(object, attributes);
   require((uses_.book.offered_of(object) & attributes).is_empty(),
-          HlaError::attribute_already_being_divested, object, "an attribute is offered once");
+          HlaError::attribute_already_being_divested, object,
+          "an attribute can be offered only once");
   ask(OwnershipRequest::offer, object, attributes, tag);
   uses_.book.change(object,
                     [&](Holding& holding) { holding.offered = holding.offered | attributes; });
@@ -40,10 +41,10 @@ void FederateOwnership::confirm(ObjectHandle object, AttributeSet attributes, By
   uses_.book.require_owned(object, attributes);
   require(uses_.book.offered_of(object).includes(attributes),
           HlaError::attribute_divestiture_was_not_requested, object,
-          "only what is offered can be confirmed");
+          "only an offer can be confirmed");
   const Holding* holding = uses_.book.find(object);
   require(attributes.is_empty() || holding->confirmable.includes(attributes),
-          HlaError::no_acquisition_pending, object, "nobody has asked for it yet");
+          HlaError::no_acquisition_pending, object, "no federate has asked for it yet");
   give_up(OwnershipRequest::confirm, object, attributes, tag);
 }
 
@@ -70,7 +71,7 @@ void FederateOwnership::withdraw_offer(ObjectHandle object, AttributeSet attribu
   });
 }
 
-/// Returns what of the object is being acquired.
+/// Returns the attributes of the object that are being acquired.
 AttributeSet FederateOwnership::require_acquirable(ObjectHandle object,
                                                    AttributeSet attributes) const {
   const KnownObject& known = uses_.book.require_known(object, attributes);
@@ -80,7 +81,8 @@ AttributeSet FederateOwnership::require_acquirable(ObjectHandle object,
   require((published | AttributeSet{privilege_to_delete_object}).includes(attributes),
           HlaError::attribute_not_published, object, "all of the attributes must be published");
   require((uses_.book.owned_of(object, known) & attributes).is_empty(),
-          HlaError::federate_owns_attributes, object, "what is owned can't be acquired");
+          HlaError::federate_owns_attributes, object,
+          "an attribute that is owned here cannot be acquired");
   return uses_.book.pending_of(object);
 }
 
@@ -111,7 +113,8 @@ void FederateOwnership::acquire_if_available(ObjectHandle object, AttributeSet a
 void FederateOwnership::cancel_acquisition(ObjectHandle object, AttributeSet attributes) {
   const KnownObject& known = uses_.book.require_known(object, attributes);
   require((uses_.book.owned_of(object, known) & attributes).is_empty(),
-          HlaError::attribute_already_owned, object, "what is owned is no longer being acquired");
+          HlaError::attribute_already_owned, object,
+          "an attribute that is owned here is no longer being acquired");
   const Holding* holding = uses_.book.find(object);
   require(attributes.is_empty() || (holding && holding->acquiring.includes(attributes)),
           HlaError::attribute_acquisition_was_not_requested, object, "nothing to cancel");

@@ -1,4 +1,4 @@
-// The services of ownership management (IEEE 1516.1-2010, clause 7): judged before anything is
+// The services of ownership management (IEEE 1516.1-2010, clause 7), checked before anything is
 // sent.
 #pragma once
 
@@ -31,9 +31,10 @@ class FederateOwnership {
   void cancel_acquisition(ObjectHandle object, AttributeSet attributes);
   void query(ObjectHandle object, AttributeHandle attribute);
   bool is_owned(ObjectHandle object, AttributeHandle attribute) const;
-  /// What becomes of what is owned when the federate leaves. What outlives it is sent now.
+  /// Sets what happens to owned attributes when the federate leaves. Values that would outlive it
+  /// are sent now.
   void set_directive(ResignAction action);
-  /// Throws if the action leaves what may not be left.
+  /// Throws if the action leaves attributes or acquisitions that may not be left.
   void prepare_to_resign(ResignAction action);
 
   bool handle_notices(Reader& reader);

@@ -1,4 +1,4 @@
-// What the RTI says about ownership, noted in the book and called back.
+// Handles the RTI's notices about ownership: notes them in `OwnershipBook` and calls back.
 #include "rti/federate/services/federate_ownership.h"
 #include "rti/wire/object_block.h"
 
@@ -37,11 +37,11 @@ void FederateOwnership::note(ObjectHandle object, OwnershipNotice notice, Attrib
   const bool is_kept = notice == OwnershipNotice::kept || notice == OwnershipNotice::kept_offered;
   if (is_kept && !pending.is_empty())
     call_back(object, OwnershipNotice::acquired, pending,
-              {});  // asked for again before it was clear that it had stayed
+              {});  // acquired again before the notice that it had stayed
 }
 
-/// Returns what there is to tell: what crossed a word of ours on its way is about what we no longer
-/// own or want, and passes in silence.
+/// Returns the attributes to notify the federate of: a notice that crossed an own request is about
+/// attributes that are no longer owned or wanted, and is ignored.
 AttributeSet FederateOwnership::change(ObjectHandle object, OwnershipNotice notice,
                                        AttributeSet attributes) {
   AttributeSet told = attributes;

@@ -1,4 +1,4 @@
-// What is checked of regions, noted in the book, and sent, so many to a message.
+// Checks regions, notes them in `RegionBook` and sends them, several to a message.
 #include "rti/federate/services/federate_regions.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ RegionHandle FederateRegions::create(DimensionSet dimensions) {
 void FederateRegions::commit(std::span<const RegionHandle> regions) {
   for (const RegionHandle region : regions)
     if (!uses_.book.is_planar(region))
-      uses_.book.closed_ranges(region, ranges_);  // all are checked before any is said
+      uses_.book.closed_ranges(region, ranges_);  // all are checked before any is sent
   for (const RegionHandle region : regions) {
     if (uses_.book.is_planar(region)) {
       const RegionBounds one{region, uses_.book.plane(uses_.book.number(region))};

@@ -55,8 +55,8 @@ class FederateRegions {
 
   AmbassadorBasis basis_;
   Uses uses_;
-  std::vector<Range> ranges_;       ///< of the region at hand
-  std::vector<std::byte> records_;  ///< of the message at hand
+  std::vector<Range> ranges_;       ///< of one region
+  std::vector<std::byte> records_;  ///< of one message
 };
 
 }  // namespace rink::rti

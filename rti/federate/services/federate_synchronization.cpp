@@ -1,4 +1,4 @@
-// What a federate says about synchronisation points, and is told.
+// A federate's messages about synchronisation points, and those that it receives.
 #include "rti/federate/services/federate_synchronization.h"
 
 #include "rti/federate/books/require.h"

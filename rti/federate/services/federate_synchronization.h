@@ -1,5 +1,5 @@
-// Synchronisation points as a federate registers and achieves them (IEEE 1516.1-2010, 4.11 to
-// 4.15).
+// The services by which a federate registers and achieves synchronisation points (IEEE 1516.1-2010,
+// 4.11 to 4.15).
 #pragma once
 
 #include <span>
@@ -26,7 +26,7 @@ class FederateSynchronization {
 
  private:
   AmbassadorBasis basis_;
-  std::vector<std::string> announced_;  ///< that we have not achieved yet
+  std::vector<std::string> announced_;  ///< labels that this federate has not achieved yet
 };
 
 }  // namespace rink::rti

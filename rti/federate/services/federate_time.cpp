@@ -1,4 +1,4 @@
-// A federate's own time: what it asks for, and what it is answered.
+// A federate's requests about its logical time, and the RTI's answers.
 #include "rti/federate/services/federate_time.h"
 
 #include "rti/wire/time_messages.h"

@@ -43,7 +43,7 @@ class FederateTime {
   void set_asynchronous(bool is_wanted) { clock_.ask_asynchronous(is_wanted); }
 
   /// In time-stamp order where that is what the object model or `change_order` says and the
-  /// federate regulates: only then is there a handle. What goes in receive order goes at once.
+  /// federate regulates: only then is there a handle. Messages in receive order are sent at once.
   RetractionHandle update(ObjectHandle object, AttributeSet attributes, Bytes values,
                           const Moment& moment);
   RetractionHandle send(InteractionClassHandle interaction_class, FederateHandle receiver,
@@ -70,10 +70,9 @@ class FederateTime {
   AmbassadorBasis basis_;
   Uses uses_;
   FederateClock clock_;
-  std::vector<std::byte> content_;  ///< the message inside one that goes in time-stamp order
+  std::vector<std::byte> content_;  ///< the message inside one in time-stamp order
   std::unordered_map<std::uint32_t, AttributeSet>
-      order_changes_;  ///< objects whose attributes go in another order than the model says: those
-                       ///< in time-stamp order
+      order_changes_;  ///< objects with changed orders: the attributes in time-stamp order
   std::vector<Order> interaction_orders_;  ///< by class, once one differs from the model
   std::vector<TimedDeletion> deletions_;   ///< as long as they can be taken back
 };

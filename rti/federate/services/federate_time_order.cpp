@@ -1,4 +1,4 @@
-// What a federate sends in time-stamp order, and takes back.
+// Sends and retracts messages in time-stamp order.
 #include <algorithm>
 #include <cassert>
 #include <string>
@@ -70,9 +70,9 @@ RetractionHandle FederateTime::update(ObjectHandle object, AttributeSet attribut
   }
   clock_.check_send(moment.time.value);
   if (!known.is_own && !uses_.ownership.owned_of(object, known).includes(attributes))
-    throw RtiException(HlaError::attribute_not_owned, name_of(object) + " is somebody else's");
+    throw RtiException(HlaError::attribute_not_owned, name_of(object) + " is another federate's");
   uses_.updates.require_values(object_class, attributes, values);
-  std::vector<std::byte> ordered, others;  // each attribute's value goes with those of its order
+  std::vector<std::byte> ordered, others;  // values of each order
   attributes.for_each([&](AttributeHandle each) {
     const Bytes value = basis_.fom.value(object_class, attributes, each, values);
     std::vector<std::byte>& part = in_order.contains(each) ? ordered : others;
@@ -115,7 +115,7 @@ RetractionHandle FederateTime::delete_instance(ObjectHandle object, const Moment
   const KnownObject& known = require_known(object);
   if (!uses_.ownership.owned_of(object, known).contains(privilege_to_delete_object))
     throw RtiException(HlaError::delete_privilege_not_held,
-                       name_of(object) + " is somebody else's");
+                       name_of(object) + " is another federate's");
   content_.clear();
   DeleteObjectMessage message{object.value};
   write(content_, message);
@@ -142,7 +142,7 @@ void FederateTime::change_order(ObjectHandle object, AttributeSet attributes, Or
     throw RtiException(HlaError::attribute_not_defined,
                        "in class " + basis_.fom.at(object_class).name);
   if (!uses_.ownership.owned_of(object, known).includes(attributes))
-    throw RtiException(HlaError::attribute_not_owned, name_of(object) + " is somebody else's");
+    throw RtiException(HlaError::attribute_not_owned, name_of(object) + " is another federate's");
   const AttributeSet before = timestamped(object, object_class);
   order_changes_[object.value] =
       order == Order::timestamp ? before | attributes : before.without(attributes);

@@ -1,4 +1,4 @@
-// Questions about transportation, and their answers.
+// Requests about transportation types, and their answers.
 #include "rti/federate/services/federate_transportation.h"
 
 #include "rti/federate/services/require_declared.h"

@@ -1,5 +1,5 @@
-// By which way attributes and interactions go, as a federate asks and is told (IEEE 1516.1-2010,
-// 6.23 to 6.30).
+// The services by which a federate changes and queries transportation types (IEEE 1516.1-2010, 6.23
+// to 6.30).
 #pragma once
 
 #include "rti/federate/ambassador_basis.h"

@@ -1,4 +1,4 @@
-// What may be sent, and in which form.
+// Checks, encodes and sends updates and interactions.
 #include "rti/federate/services/federate_updates.h"
 
 #include <cmath>
@@ -48,7 +48,7 @@ void FederateUpdates::require_values(ObjectClassHandle object_class, AttributeSe
                                                        fom.at(object_class).name + "'s " + names);
 }
 
-/// What is owned whole, and so by most, is found without a look at the holdings.
+/// An object that is owned whole, as most are, needs no look at the holdings.
 const KnownObject& FederateUpdates::require_updatable(ObjectHandle object,
                                                       AttributeSet attributes) const {
   const KnownObject* known = uses_.objects.find(object);

@@ -1,5 +1,5 @@
-// Updates and interactions as a federate sends them in receive order: checked, spared if nobody
-// hears them, coded, and handed on.
+// The services by which a federate sends updates and interactions in receive order: they are
+// checked, kept back if nobody subscribes, coded, and sent.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,13 @@ class FederateUpdates {
   FederateUpdates(const AmbassadorBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
   /// Throws FederateNotExecutionMember, ObjectInstanceNotKnown, AttributeNotDefined,
-  /// AttributeNotOwned, InvalidLogicalTime, and RTIinternalError for values that are none.
+  /// AttributeNotOwned, InvalidLogicalTime, and RTIinternalError for malformed values.
   void update(ObjectHandle object, AttributeSet attributes, Bytes values, const Stamp& stamp);
-  /// To `receiver` alone, if it names one. Throws InteractionClassNotPublished and its kin.
+  /// Sends to `receiver` alone if it names a federate. Throws InteractionClassNotPublished or its
+  /// like.
   void send(InteractionClassHandle interaction_class, FederateHandle receiver, Bytes parameters,
             const Stamp& stamp);
-  /// Whether such an interaction is to be sent; throws if it may not be.
+  /// True if such an interaction has subscribers; throws if it may not be sent.
   bool may_send(InteractionClassHandle interaction_class, Bytes parameters, const Stamp& stamp);
 
   void require_values(ObjectClassHandle object_class, AttributeSet attributes, Bytes values) const;
@@ -39,7 +40,7 @@ class FederateUpdates {
 
   AmbassadorBasis basis_;
   Uses uses_;
-  std::vector<std::byte> coded_;  ///< of the update at hand
+  std::vector<std::byte> coded_;  ///< of one update
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// Questions to a host, each in a frame of its own, and its answers.
+// Sends questions to a host, each in a frame of its own, and handles the answers.
 #include "rti/federate/services/host_questions.h"
 
 #include <string>

@@ -1,5 +1,5 @@
-// What a host is asked about its federation executions, and what it reports of them (IEEE
-// 1516.1-2010, 4.5 to 4.8).
+// Questions to a host about its federation executions, and its reports (IEEE 1516.1-2010, 4.5 to
+// 4.8).
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace rink::rti {
 
-/// Asked before the join; `query_management` after it too, of one's own execution.
+/// Questions come before the join; `query_management` may follow it too, about the own execution.
 class HostQuestions {
  public:
   explicit HostQuestions(const AmbassadorBasis& basis) : basis_(basis) {}
@@ -20,7 +20,7 @@ class HostQuestions {
   void destroy_federation_execution(std::string_view federation);
   void list_federation_executions();
   void query_management();
-  /// Whether there is a host that may answer, and may be lost.
+  /// True once a question was sent: a host may answer, and may be lost.
   bool has_asked() const { return has_asked_; }
 
   bool handle_created(Reader& reader);
@@ -35,8 +35,9 @@ class HostQuestions {
   void ask(Message message);
 
   AmbassadorBasis basis_;
-  std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being told
-  std::vector<FederationReport> reports_;                   ///< of those that are being told
+  std::vector<FederationExecutionInformation> executions_;  ///< of the list that is being received
+  std::vector<FederationReport> reports_;                   ///< of the reports that are being
+                                                            ///< received
   bool has_asked_ = false;
 };
 

@@ -1,4 +1,4 @@
-// What is asked of the RTI about names, and what it answers.
+// Sends requests about names to the RTI, and handles the answers.
 #include "rti/federate/services/instance_names.h"
 
 #include "rti/federate/books/require.h"

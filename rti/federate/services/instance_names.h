@@ -1,5 +1,5 @@
-// The names of object instances as their federate reserves, gives and hears them (IEEE 1516.1-2010,
-// 6.2 to 6.7).
+// The services by which a federate reserves and looks up names of object instances (IEEE
+// 1516.1-2010, 6.2 to 6.7).
 #pragma once
 
 #include <cstddef>
@@ -27,11 +27,11 @@ class InstanceNames {
   ObjectHandle handle_of(std::string_view name) const;
   std::string name_of(ObjectHandle object) const;
 
-  /// That an object may be registered by it. Throws IllegalName, ObjectInstanceNameInUse.
+  /// Throws IllegalName or ObjectInstanceNameInUse unless an object may be registered by the name.
   void require_free(std::string_view name) const;
-  /// An object has it now; its reservation, if any, is used.
+  /// Gives the name to an own object, which uses up its reservation, if any.
   void give_own(ObjectHandle object, std::string_view name);
-  /// One that was discovered; an empty name is the default one.
+  /// Notes the name of a discovered object; an empty name is the default one.
   void give(ObjectHandle object, std::string_view name) { names_.give(object, name); }
   void forget(ObjectHandle object) { names_.forget(object); }
 

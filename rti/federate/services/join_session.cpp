@@ -1,4 +1,4 @@
-// What a federate says to join and to leave, and is told of others who do.
+// Joins and resigns, and handles notices of other federates that do.
 #include "rti/federate/services/join_session.h"
 
 #include <algorithm>

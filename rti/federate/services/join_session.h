@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// Moves the phase on; the others only look at it.
+/// The only part that changes the phase.
 class JoinSession {
  public:
   JoinSession(const AmbassadorBasis& basis, JoinPhase& phase) : basis_(basis), phase_(phase) {}
@@ -25,10 +25,10 @@ class JoinSession {
   FederateHandle handle_of(std::string_view federate_name) const;
   const std::string& name_of(FederateHandle federate) const;
 
-  /// The RTI let us in.
+  /// The RTI has accepted the join.
   void joined(FederateHandle federate);
   bool handle_refused(Reader& reader);
-  /// What follows is the refusal.
+  /// Handles the digest of the federation's model, which precedes a refusal.
   bool handle_fom_digest(Reader& reader);
   bool handle_federate_joined(Reader& reader);
   bool handle_federate_resigned(Reader& reader);
@@ -36,8 +36,8 @@ class JoinSession {
  private:
   AmbassadorBasis basis_;
   JoinPhase& phase_;
-  std::string fom_difference_;  ///< from the federation's model, if the RTI told
-  std::vector<std::pair<FederateHandle, std::string>> federates_;  ///< ourselves first
+  std::string fom_difference_;  ///< from the federation's model, if the RTI sent its digest
+  std::vector<std::pair<FederateHandle, std::string>> federates_;  ///< this federate first
 };
 
 }  // namespace rink::rti

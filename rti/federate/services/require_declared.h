@@ -1,4 +1,4 @@
-// How services refuse classes that are not defined, or not published.
+// Checks by which services refuse classes that are not defined or not published.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// How updates are kept back, and released.
+// Keeps updates back and releases them.
 #include "rti/federate/services/sparing.h"
 
 #include <bit>
@@ -8,8 +8,8 @@
 
 namespace rink::rti {
 
-/// Only what ends with its federate may be kept back, and only while it would hear at once that
-/// somebody listens.
+/// Values may be kept back only if they end with their federate, and only while news of a
+/// subscriber would reach it at once.
 bool Sparing::may_spare() const { return uses_.ownership.is_deleting() && uses_.gate.is_open(); }
 
 bool Sparing::spares(InteractionClassHandle interaction_class) {

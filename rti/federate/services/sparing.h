@@ -1,4 +1,4 @@
-// What is not sent since nobody hears it (docs/rti.md, "Nobody listens").
+// Keeps updates back to which nobody subscribes (docs/rti.md, "Nobody listens").
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// The newest values that were kept back follow as soon as somebody hears them.
+/// The newest of the kept values are sent as soon as another federate subscribes.
 class Sparing {
  public:
   struct Uses {
@@ -24,22 +24,22 @@ class Sparing {
   Sparing(const AmbassadorBasis& basis, const Uses& uses)
       : basis_(basis), uses_(uses), values_(basis.fom) {}
 
-  /// Before each update: false, and nothing else is to be done, if somebody hears it and nothing of
-  /// it is kept back.
+  /// Call it before each update: false if others subscribe to all of it and nothing of it is kept
+  /// back, so nothing else is needed.
   bool concerns(ObjectClassHandle object_class, AttributeSet attributes) const {
     return (attributes & uses_.classes.subscribed(object_class)).is_empty() ||
            !(attributes & values_.in_class(object_class)).is_empty();
   }
-  /// False if the update is to be sent: then what was kept back of it is out of date. `values` are
+  /// False if the update must be sent, which makes values kept back of it out of date. `values` are
   /// as the federate gave them.
   bool spares(const UpdateHeader& header, ObjectHandle object, bool is_own, Bytes values);
   bool spares(InteractionClassHandle interaction_class);
-  /// Sends what was kept back: of an object; of objects of a class of which `subscribed` is a part;
-  /// of all. As the newest state, with the newest stamp.
+  /// Sends what was kept back of an object, of `subscribed` attributes of a class, or of all: the
+  /// newest state with the newest stamp.
   void release(ObjectHandle object);
   void release(ObjectClassHandle object_class, AttributeSet subscribed);
   void release_all() { release(ObjectClassHandle{}, AttributeSet(~0u)); }
-  /// While bytes wait unread, nobody would tell that somebody listens.
+  /// While bytes wait unread, news of a subscriber would wait too.
   void gate_closed() {
     if (!may_spare()) release_all();
   }
@@ -52,7 +52,7 @@ class Sparing {
   AmbassadorBasis basis_;
   Uses uses_;
   SparedValues values_;
-  std::vector<std::byte> coded_;  ///< of what is being released
+  std::vector<std::byte> coded_;  ///< of the values that are being released
 };
 
 }  // namespace rink::rti

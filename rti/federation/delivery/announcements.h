@@ -24,17 +24,18 @@ class Announcements {
   };
   Announcements(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
-  /// As many as fit into the frame up to `end`; the others stay unannounced until a later flush.
+  /// Writes as many as fit into the frame up to `end`; the others stay unannounced until a later
+  /// flush.
   void write(FlushContext& context, std::size_t end);
-  /// A message in time-stamp order is about to speak of it: it is announced, and its state told,
-  /// before all else that the next flush says.
+  /// A message in time-stamp order names the object: the next flush announces it and sends its
+  /// state before all else.
   void send_state_now(std::uint32_t slot, ObjectSlot object);
 
  private:
   void write_postponed(FlushContext& context, std::size_t end);
   void write_event(FlushContext& context, const ScopeEvent& event, std::size_t end);
   void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes);
-  /// Nobody discovers it any more.
+  /// True if the object may not be discovered any more.
   bool is_too_late(const FederateInterest& interest, ObjectSlot object) const {
     return basis_.objects[object].is_leaving && !interest.known.contains(object);
   }

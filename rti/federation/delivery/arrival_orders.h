@@ -1,4 +1,4 @@
-// Which of two updates of a federate was said later, where one came by its stream and the other by
+// Which of two updates of a federate was sent later, where one came by its stream and the other by
 // a datagram.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// Of federates that have sent a datagram; of others only their frames are counted.
+/// Kept for federates that have sent a datagram; of others only the frames are counted.
 class ArrivalOrders {
  public:
   explicit ArrivalOrders(const Fom& fom) : fom_(fom) {}
@@ -25,27 +25,28 @@ class ArrivalOrders {
     assert(slot < federates_.size());
     ++federates_[slot].frames;
   }
-  /// After the one that asked to join.
+  /// Frames received after the one that asked to join.
   std::uint32_t frames_received(std::uint32_t slot) const { return federates_[slot].frames; }
 
-  /// Its first datagram has come. What was said before is not known, so that a datagram which is
-  /// older is as good as lost.
+  /// The federate's first datagram has come. The order of what came before is not known, so an
+  /// older datagram is treated as lost.
   void begin(std::uint32_t slot) {
     if (is_kept(slot)) return;
     federates_[slot].orders = std::make_unique<ArrivalOrder>(fom_);
     federates_[slot].first_frames = federates_[slot].frames;
   }
   bool is_kept(std::uint32_t slot) const { return federates_[slot].orders != nullptr; }
-  /// Frames that had come when its first datagram did.
+  /// The number of frames that had come when the first datagram did.
   std::uint32_t first_frames(std::uint32_t slot) const { return federates_[slot].first_frames; }
 
-  /// `set` was said by the stream just now.
+  /// The stream has just brought values of `set`.
   void accept_frame(std::uint32_t slot, ObjectHandle object, std::uint16_t object_class,
                     AttributeSet set) {
     if (is_kept(slot))
       accept(slot, object, object_class, set, order_of_frame(federates_[slot].frames));
   }
-  /// Those of `set` that are not older than what is known, `order` being that of a datagram.
+  /// The attributes of `set` whose values, at a datagram's `order`, are not older than the known
+  /// ones.
   AttributeSet accept(std::uint32_t slot, ObjectHandle object, std::uint16_t object_class,
                       AttributeSet set, std::uint64_t order) {
     assert(is_kept(slot));

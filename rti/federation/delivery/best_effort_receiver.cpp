@@ -1,4 +1,4 @@
-// Datagrams on their way from a federate to the objects' states.
+// Applies datagrams of federates to the objects' states.
 #include "rti/federation/delivery/best_effort_receiver.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void BestEffortReceiver::receive(std::uint32_t slot, Bytes datagram) {
   if (!exchange(reader, head) || !admit(slot, head, datagram)) ++basis_.counters.datagrams_ignored;
 }
 
-/// It may speak of objects that a frame on its way registers, then it waits for that.
+/// A datagram that names objects which a frame on its way registers waits for that frame.
 bool BestEffortReceiver::admit(std::uint32_t slot, const DatagramHead& head, Bytes datagram) {
   if (head.number == 0) return take(slot, datagram);
   if (!federates_[slot] && uses_.types.has_best_effort()) {
@@ -100,7 +100,7 @@ bool BestEffortReceiver::handle_updates(std::uint32_t slot, const DatagramHead& 
   });
 }
 
-/// Nothing is kept of what is not its own.
+/// Values of attributes that the sender does not own are ignored.
 AttributeSet BestEffortReceiver::accept(std::uint32_t slot, const DatagramHead& head,
                                         ObjectSlot object, AttributeSet attributes) {
   const AttributeSet owned = attributes & uses_.ownership.owned_by(slot, object);

@@ -20,7 +20,7 @@
 
 namespace rink::rti {
 
-/// Nothing in a datagram costs anybody the connection.
+/// No datagram, however malformed, costs its sender the connection.
 class BestEffortReceiver {
  public:
   struct Uses {
@@ -35,9 +35,10 @@ class BestEffortReceiver {
   BestEffortReceiver(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 
   void receive(std::uint32_t slot, Bytes datagram);
-  /// Those that spoke of what a frame said which came after them.
+  /// Handles datagrams that waited for a frame that has come.
   void handle_held(std::uint32_t slot);
-  /// When many are due, one is missing, or the first has waited for long enough.
+  /// Acknowledges when many datagrams are due, one is missing, or the first has waited for long
+  /// enough.
   void acknowledge(std::uint32_t slot, Outlet& outlet);
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot) { federates_[slot].reset(); }
@@ -56,7 +57,8 @@ class BestEffortReceiver {
                       Reader& reader);
   bool handle_updates(std::uint32_t slot, const DatagramHead& head, const Stamp& stamp,
                       Reader& reader);
-  /// What of them is newer than what is known of an object of the block's class.
+  /// The attributes whose values are newer than the known ones, if the object is of the block's
+  /// class.
   AttributeSet accept(std::uint32_t slot, const DatagramHead& head, ObjectSlot object,
                       AttributeSet attributes);
 

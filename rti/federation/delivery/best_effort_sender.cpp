@@ -1,4 +1,4 @@
-// Runs cut into datagrams, and the ways that carry them.
+// Cuts runs into datagrams, and falls back to the stream where they get no answer.
 #include "rti/federation/delivery/best_effort_sender.h"
 
 #include <bit>
@@ -65,7 +65,7 @@ DatagramPath BestEffortSender::begin(JoinedFederate& federate, Outlet& outlet) {
   return path;
 }
 
-/// Falls back to the stream where nobody answers, and asks now and then if somebody does again.
+/// Falls back to the stream where datagrams get no answer, and probes the channel now and then.
 bool BestEffortSender::is_usable(JoinedFederate& federate, bool is_open, Outlet& outlet) {
   if (!federate.channel) {
     federate.channel = std::make_unique<DatagramChannel>(batch_.lists());
@@ -156,7 +156,7 @@ void BestEffortSender::send(FlushContext& context, Outlet& outlet) {
   basis_.counters.update_bytes_sent += size;
   basis_.counters.datagrams_sent += datagrams.size();
   federate.counts.bytes_received += size;
-  // A federate that acknowledges our datagrams needs no heartbeat beside them.
+  // A federate that acknowledges datagrams needs no heartbeat beside them.
   if (const auto since = channel->ledger.unanswered_since();
       !since || basis_.now - *since < basis_.settings.timeouts.heartbeat_s)
     federate.last_sent = basis_.now;

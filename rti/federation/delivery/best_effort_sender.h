@@ -1,4 +1,4 @@
-// Best-effort updates by datagram, where a federate has a way for them: what goes out, what was
+// Best-effort updates by datagram, where a federate has a channel for them: what is sent, what was
 // lost, and falling back to the stream.
 #pragma once
 
@@ -19,26 +19,27 @@ class BestEffortSender {
   BestEffortSender(const FederationBasis& basis, const TransportationTypes& types,
                    Buffering& buffering)
       : basis_(basis), types_(types), buffering_(buffering) {}
-  /// Federates' ways go with it, for what they have sent is noted in its lists.
+  /// The federates' channels end with it, since they refer to its lists of what was sent.
   ~BestEffortSender() {
     for (JoinedFederate& each : basis_.federates) each.channel.reset();
   }
   BestEffortSender(const BestEffortSender&) = delete;
   BestEffortSender& operator=(const BestEffortSender&) = delete;
 
-  /// An update for the next flush, in two parts where one goes by datagram and the other does not.
+  /// Adds an update to the next flush, in two parts where some attributes travel by datagram and
+  /// others do not.
   void append(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp,
               Bytes values);
-  /// False if it names nothing that was sent so.
+  /// False if it acknowledges a datagram that was never sent.
   bool acknowledge(std::uint32_t slot, Reader& reader);
 
   void begin_flush() { batch_.begin_tick(); }
-  /// The way for the federate's datagrams in this flush, null if it has none.
+  /// The federate's datagram channel in this flush, null if it has none.
   DatagramPath begin(JoinedFederate& federate, Outlet& outlet);
-  /// A state that was lost, or false if it does not go by datagram.
+  /// Adds a state that was lost; false if it does not travel by datagram.
   bool add(const FlushContext& context, ObjectSlot object, AttributeSet set, const Stamp& stamp,
            Bytes values);
-  /// Run number `index` of the flush; false if it does not go by datagram.
+  /// Adds run number `index` of the flush; false if it does not travel by datagram.
   bool gather(std::size_t index, FlushContext& context);
   void send(FlushContext& context, Outlet& outlet);
 
@@ -52,7 +53,7 @@ class BestEffortSender {
   Buffering& buffering_;
   bool has_channels_ = false;  ///< some federate had one
   DatagramBatch batch_;
-  std::vector<std::byte> values_;  ///< of the record at hand
+  std::vector<std::byte> values_;  ///< of one record
 };
 
 }  // namespace rink::rti

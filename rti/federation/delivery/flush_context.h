@@ -1,4 +1,4 @@
-// What the functions that flush one federate hand along.
+// The context of the functions that flush one federate.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace rink::rti {
 
-/// A federate's way for datagrams while it is used, and what fits into one of them.
+/// A federate's datagram channel while it is used, and the size of a datagram.
 struct DatagramPath {
   DatagramChannel* channel = nullptr;
   std::size_t size_max = 0;
@@ -28,7 +28,7 @@ struct FlushContext {
   GatheredFrame& frame;
   std::vector<ObjectSlot>& full_state_sent;  ///< their states on entry are in the frame
   DatagramPath path{};
-  bool is_all_sent = false;  ///< nothing stays fresh beyond this flush
+  bool is_all_sent = false;  ///< no full state stays due after this flush
 };
 
 }  // namespace rink::rti

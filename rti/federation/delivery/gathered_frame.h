@@ -1,4 +1,4 @@
-// The frame that one flush sends to one federate: its own bytes, and others' that it shares.
+// The frame that one flush sends to one federate: its own bytes, and parts that federates share.
 #pragma once
 
 #include <cassert>
@@ -16,8 +16,8 @@
 
 namespace rink::rti {
 
-/// Grows at its end. What many federates receive alike is a part of its own, sent from where it
-/// lies. Its memory is used again by the next frame.
+/// The frame grows at its end. A part that many federates receive is not copied but sent from its
+/// place. The next frame uses the memory again.
 class GatheredFrame {
  public:
   void begin() {
@@ -27,24 +27,24 @@ class GatheredFrame {
     is_keyframe_begun_ = false;
     pieces_.clear();
   }
-  /// With its header.
+  /// The size with its header.
   std::size_t size() const { return bytes_.size() + shared_size_; }
   bool is_empty() const { return size() == frame_header_size; }
-  /// For who appends to it.
+  /// The bytes, for writers that append.
   std::vector<std::byte>& bytes() { return bytes_; }
   void append(Bytes bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   template <class Message>
   void enqueue(Message message) {
     write(bytes_, message);
   }
-  /// Of the updates that follow. Said where it differs from what was said before.
+  /// Writes the stamp of the updates that follow if it differs from the one before.
   void write_stamp(const Stamp& stamp) {
     if (stamp_ == stamp) return;
     stamp_ = stamp;
     enqueue(StampMessage{stamp});
   }
   bool is_stamped(const Stamp& stamp) const { return stamp_ == stamp; }
-  /// True for the first who asks: what follows is to be kept, which is said once in a frame.
+  /// True for the first call in a frame: the message that begins a keyframe is written once.
   bool begins_keyframe() { return !std::exchange(is_keyframe_begun_, true); }
   /// `bytes` must stay where they are until the frame was sent.
   void add_shared(Bytes bytes) {
@@ -55,7 +55,7 @@ class GatheredFrame {
     pieces_.push_back({bytes, 0, 0});
     shared_size_ += bytes.size();
   }
-  /// Writes its length into its header. The parts hold until the frame is touched again.
+  /// Writes the length into the header. The parts are valid until the frame is changed.
   std::span<const Bytes> finish() {
     assert(size() - frame_header_size <= frame_max_to_federate);
     const auto length = static_cast<std::uint32_t>(size() - frame_header_size);
@@ -70,7 +70,7 @@ class GatheredFrame {
   }
 
  private:
-  /// A stretch of `bytes_`, or of somebody's.
+  /// A stretch of `bytes_`, or a shared part.
   struct Piece {
     Bytes shared;
     std::size_t from = 0, to = 0;

@@ -1,4 +1,4 @@
-// Differences to the keyframes that each federate has acknowledged.
+// Writes differences to the keyframes that each federate has acknowledged.
 #include "rti/federation/delivery/periodic_writer.h"
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Periodic state on its way out, and what federates say of the keyframes that they were sent.
+// Sends periodic state, and handles federates' acknowledgements of keyframes.
 #pragma once
 
 #include <cstddef>

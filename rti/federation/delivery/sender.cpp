@@ -40,8 +40,8 @@ void Sender::flush(Outlet& outlet) {
   uses_.buffering.clear();
 }
 
-/// What a flush needs of a federate has left the cache since the last one if there are many: what
-/// the next ones need is fetched meanwhile, in the order in which one leads to the other.
+/// With many federates a federate's data leaves the cache between two flushes: the data of the next
+/// ones are fetched meanwhile, each piece when the one that points to it is there.
 void Sender::look_ahead(std::uint32_t slot) const {
   if (slot + 3 < basis_.federates.size()) fetch(basis_.federates[slot + 3]);
   if (slot + 2 < basis_.federates.size() && basis_.federates[slot + 2].is_joined) {
@@ -63,8 +63,7 @@ void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
   frame.begin();
   std::ranges::sort(interest.sent_now);
   for (const ObjectSlot each : interest.sent_now)
-    interest.needs_full_state.insert(
-        each);  // what this flush's runs say of them is part of what was told
+    interest.needs_full_state.insert(each);  // the full state includes this flush's runs
   context.path = uses_.datagrams.begin(federate, outlet);
   uses_.received.acknowledge(context.slot, outlet);
   frame.append(federate.outbox.head());
@@ -80,7 +79,7 @@ void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
   send_frame(context, outlet);
 }
 
-/// Who is in scope, and what is new of them.
+/// Writes the changes of scope and the new values of objects in scope.
 void Sender::write_content(FlushContext& context, Outlet& outlet) {
   FederateInterest& interest = context.interest;
   const std::size_t entry_end = context.frame.size() + entry_room(context, outlet);
@@ -94,8 +93,8 @@ void Sender::write_content(FlushContext& context, Outlet& outlet) {
   uses_.datagrams.send(context, outlet);
 }
 
-/// What was sent whole needs its full state no longer; not before, for its updates in this flush
-/// are part of what was told.
+/// Objects sent in full need their full state no longer; this comes last because that state
+/// includes their updates in this flush.
 void Sender::settle_interest(FlushContext& context) {
   FederateInterest& interest = context.interest;
   interest.events.clear();
@@ -108,8 +107,8 @@ void Sender::settle_interest(FlushContext& context) {
   }
 }
 
-/// Who comes into a large world would be closed for a queue that no reader empties in one tick:
-/// what does not fit is sent by the next flushes.
+/// Without a limit, a federate that enters a large world would be closed for a queue that no reader
+/// empties in one tick: what does not fit is sent by the next flushes.
 std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet) const {
   const FederateInterest& interest = context.interest;
   if (interest.events.empty() && !interest.needs_any_full_state && !interest.has_unannounced)
@@ -119,8 +118,8 @@ std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet
                   outlet.waiting_bytes(context.federate.connection));
 }
 
-/// Up to `end` bytes in the frame. Their stamp is their owner's newest, not that of the update
-/// which said it: what they are was not changed until then.
+/// Fills the frame up to `end` bytes. A state has the newest stamp of its owner, not that of its
+/// own latest update: it holds until then.
 void Sender::write_full_states(FlushContext& context, std::size_t end) {
   FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
@@ -166,8 +165,8 @@ bool Sender::holds_back(const FlushContext& context, const Outlet& outlet) {
                                     outlet.waiting_bytes(context.federate.connection));
 }
 
-/// What it would have heard of becomes due whole, as if it had come into scope: the newest state,
-/// once, however many updates there were.
+/// Objects that the federate would have received become due in full, as if they had come into
+/// scope: the newest state, once, however many updates there were.
 void Sender::hold_back(FlushContext& context) {
   FederateInterest& interest = context.interest;
   for (const UpdateRun& run : context.runs) {
@@ -251,7 +250,8 @@ void Sender::gather_cut_run(const UpdateRun& run, FlushContext& context) {
   });
 }
 
-/// What was lost goes out as it is now, by datagram again or, after a fallback, by the stream.
+/// Sends the present values of what was lost, by datagram again or, after a fallback, by the
+/// stream.
 void Sender::write_due_states(FlushContext& context) {
   DatagramChannel& channel = *context.federate.channel;
   const FederateInterest& interest = context.interest;
@@ -259,7 +259,7 @@ void Sender::write_due_states(FlushContext& context) {
   for (const DatagramLedger::Lost& each : channel.due) {
     const ObjectSlot object = basis_.objects.find({each.handle});
     if (object == no_object || interest.needs_full_state.contains(object))
-      continue;  // gone, or told as a whole anyway
+      continue;  // gone, or sent in full anyway
     const AttributeSet set =
         interest.attributes_in_scope(object, basis_.objects[object].object_class) &
         basis_.objects[object].valued & each.attributes;
@@ -282,7 +282,7 @@ void Sender::send_frame(FlushContext& context, Outlet& outlet) {
   const std::size_t size = context.frame.size();
   if (size - frame_header_size > frame_max_to_federate)
     return expel_(context.slot, Violation::over_limit, ResignReason::lost,
-                  "more to tell in one tick than a frame holds");
+                  "more to send in one tick than a frame holds");
   federate.last_sent = basis_.now;
   basis_.counters.bytes_sent += size;
   federate.counts.bytes_received += size;

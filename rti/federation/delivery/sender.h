@@ -1,4 +1,4 @@
-// What goes out: one gathered write per destination, shared blocks without a copy.
+// Sends each flush: one gathered write per destination, shared blocks without a copy.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class Sender final {
   Sender(const FederationBasis& basis, const Uses& uses, Expulsion expel)
       : basis_(basis), uses_(uses), expel_(std::move(expel)) {}
 
-  /// To everybody who has joined, in the order of slots.
+  /// Sends to all joined federates, in the order of slots.
   void flush(Outlet& outlet);
 
  private:
@@ -58,7 +58,7 @@ class Sender final {
   Expulsion expel_;
   GatheredFrame frame_;                      ///< lent to the flush at hand
   std::vector<ObjectSlot> full_state_sent_;  ///< lent to the flush at hand
-  std::vector<std::byte> values_;            ///< of the record at hand
+  std::vector<std::byte> values_;            ///< of one record
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// Turns worked out 64 objects at a time.
+// Applies turns to 64 objects at a time.
 #include "rti/federation/delivery/turn_writer.h"
 
 #include <bit>
@@ -44,9 +44,9 @@ void TurnWriter::apply_turns(FlushContext& context) {
   }
 }
 
-/// Of those who wait, or did so: what this flush's updates say becomes late; under a budget of all,
-/// for who waits is not known yet. What was late of objects out of scope is forgotten: if he comes
-/// back he is told of whole.
+/// Marks this flush's updates of objects that wait or waited as late; under a budget those of all
+/// objects, since it is not known yet which wait. Late attributes of objects out of scope are
+/// forgotten: an object that comes back is sent in full.
 void TurnWriter::note_late(const FlushContext& context, Turns& turns) {
   const FederateInterest& interest = context.interest;
   for (std::size_t i = 0; i < turns.late.word_count(); ++i)
@@ -67,7 +67,7 @@ void TurnWriter::note_late(const FlushContext& context, Turns& turns) {
   }
 }
 
-/// What telling of `object` takes now; its state on entry whole.
+/// The bytes that sending `object` takes now; its full state if that is due.
 std::size_t TurnWriter::bytes_due(std::uint32_t slot, ObjectSlot object) const {
   constexpr std::size_t handle_bytes = 2;  // a step to the next handle, mostly
   const FederateInterest& interest = distribution_.of(slot);

@@ -1,5 +1,5 @@
-// Who is in scope and not told of yet, for his tier's turn has not come or his subscriber's budget
-// is spent: what becomes late of him, and when it is told.
+// Objects in scope that are not updated yet, since their tier's turn has not come or the
+// subscriber's budget is spent: which attributes are late, and when they are sent.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace rink::rti {
 
-/// Nothing is done for a filter that says neither tiers nor a budget.
+/// It does nothing for a filter that has neither tiers nor a budget.
 class TurnWriter {
  public:
   TurnWriter(const FederationBasis& basis, DataDistribution& distribution,
              const NewestStamps& newest)
       : basis_(basis), distribution_(distribution), newest_(newest) {}
 
-  /// Decides for the flush at hand. Of whom it is the turn, that goes out by this flush's updates
-  /// if they say all that is late of him, so that it is shared, goes by datagram or as a difference
-  /// like anybody's; else by `catch_up`.
+  /// Decides for this flush. An object whose turn it is is sent by this flush's updates if they
+  /// have all its late attributes, so that it is shared, sent by datagram or as a difference as
+  /// usual; else by `catch_up`.
   void apply_turns(FlushContext& context);
-  /// The newest state of whom has waited, as far as it is late.
+  /// Sends the late attributes of objects that have waited, from the newest state.
   void catch_up(FlushContext& context);
 
  private:

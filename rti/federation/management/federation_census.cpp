@@ -1,4 +1,4 @@
-// What is worked out for a report: objects and scopes counted one by one.
+// Counts objects and scopes one by one for a report.
 #include "rti/federation/management/federation_census.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void FederationCensus::report_time(std::uint32_t slot, FederateCounts& counts) c
   if (counts.is_time_regulating != 0) counts.earliest_stamp = management.earliest(slot);
 }
 
-/// By federate slot: objects of which it owns at least one attribute.
+/// By federate slot, the objects of which the federate owns at least one attribute.
 std::vector<std::uint32_t> FederationCensus::count_owned() const {
   std::vector<std::uint32_t> owned(basis_.federates.size(), 0);
   for (ObjectSlot object = 0; object < basis_.objects.slot_count(); ++object) {

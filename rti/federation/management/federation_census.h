@@ -1,5 +1,4 @@
-// The management service: a federation execution counts little and works out the rest when it is
-// asked.
+// Counts of a federation execution that are computed when a report asks for them.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +19,8 @@ class FederationCensus {
                    const Ownership& ownership, const TimeService& time)
       : basis_(basis), distribution_(distribution), ownership_(ownership), time_(time) {}
 
-  /// Of everybody who has joined, in the order of slots; with the outlet's queues if there is one.
-  /// How long each has been silent is left open.
+  /// A report of all joined federates, in the order of slots; with the outlet's queues if there is
+  /// one. How long each has been silent is left open.
   FederationReport report(const Outlet* outlet) const;
 
  private:

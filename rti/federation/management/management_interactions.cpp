@@ -1,4 +1,4 @@
-// Each interaction that is for the RTI, and the reports that answer it.
+// Handles interactions for the RTI, and sends the reports that answer them.
 #include "rti/federation/management/management_interactions.h"
 
 #include "rti/management/management_values.h"
@@ -6,11 +6,11 @@
 namespace rink::rti {
 
 namespace {
-/// A list of labels ends before it would be longer than an interaction may be.
+/// A list of labels is cut before it exceeds an interaction.
 constexpr std::size_t label_bytes_max = 30'000;
 }  // namespace
 
-/// An interaction whose receiver is the RTI itself; others may listen too.
+/// Handles an interaction whose receiver is the RTI; others may subscribe to it too.
 Status ManagementInteractions::take(std::uint32_t slot, const InteractionMessage& message) {
   const InteractionClassHandle asked{message.interaction_class};
   ManagementReader reader(message.parameters);
@@ -37,8 +37,8 @@ Status ManagementInteractions::take(std::uint32_t slot, const InteractionMessage
   return std::nullopt;
 }
 
-/// One report for each class of which `set_of(class)` names attributes; one of no class if there is
-/// none.
+/// Sends one report for each class of which `set_of(class)` names attributes, or one without a
+/// class if there is none.
 template <class SetOf, class Write>
 void ManagementInteractions::report_classes(std::uint32_t asking, std::uint32_t about,
                                             InteractionClassHandle report, SetOf set_of,
@@ -85,7 +85,8 @@ void ManagementInteractions::report_publications(std::uint32_t asking, std::uint
   });
 }
 
-/// What it subscribes to of each class, by that or a superclass, in whatever region.
+/// Reports the attributes of each class to which the federate subscribes, by that class or a
+/// superclass, in any region.
 void ManagementInteractions::report_subscriptions(std::uint32_t asking, std::uint32_t about) {
   const auto subscribed = [&](std::uint32_t i) {
     return i < basis_.fom.object_classes().size()

@@ -1,5 +1,5 @@
-// The interactions of the management object model: what federates adjust and ask of the RTI, and
-// what it reports (IEEE 1516.1-2010, clause 11).
+// The interactions of the management object model: federates' adjustments and requests, and the
+// RTI's reports (IEEE 1516.1-2010, clause 11).
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class ManagementInteractions {
                          const ManagementHandles& handles)
       : basis_(basis), uses_(uses), handles_(handles) {}
 
-  /// An interaction whose receiver is the RTI itself; others may listen too.
+  /// Handles an interaction whose receiver is the RTI; others may subscribe to it too.
   Status take(std::uint32_t slot, const InteractionMessage& message);
 
  private:

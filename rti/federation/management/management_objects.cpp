@@ -1,5 +1,5 @@
-// Objects that are registered while somebody subscribes to them, told when asked, when due and when
-// their state changes.
+// Objects that are registered while a federate subscribes to them, and updated on request, when due
+// and when their state changes.
 #include "rti/federation/management/management_objects.h"
 
 #include <algorithm>
@@ -118,7 +118,7 @@ void ManagementObjects::begin_values(ObjectClassHandle object_class) {
   values_.clear();
   const ObjectClassHandle manager = basis_.fom.at(object_class).parent;
   ends_.assign(basis_.fom.at(manager).attributes.size(),
-               0);  // what a model gives its root is not ours to tell
+               0);  // attributes that a model adds to its root have no value here
 }
 
 template <class Write>
@@ -165,7 +165,7 @@ void ManagementObjects::value_times(std::uint32_t slot, unsigned state) {
   value([&](ManagementWriter to) { to.count(is_regulating ? 1 : 0); });
   value([&](ManagementWriter to) {
     to.count(1);
-  });  // ActiveFederate: nothing is saved or restored here
+  });  // ActiveFederate: this RTI does not save or restore
   value([&](ManagementWriter to) { to.count(uses_.time.is_advancing(slot) ? 1 : 0); });
   value([&](ManagementWriter to) {
     to.time(time != nullptr && state != 0 ? time->time(slot) : 0.0);
@@ -185,7 +185,7 @@ void ManagementObjects::value_counts(std::uint32_t slot) {
     value([&](ManagementWriter to) { to.count(count); });
 }
 
-/// By federate slot: objects that it may delete.
+/// By federate slot, the objects that the federate may delete.
 std::vector<std::uint32_t> ManagementObjects::count_deletable() const {
   std::vector<std::uint32_t> deletable(basis_.federates.size(), 0);
   for (ObjectSlot slot = 0; slot < basis_.objects.slot_count(); ++slot) {

@@ -21,9 +21,8 @@
 namespace rink::rti {
 
 /// While nobody subscribes to HLAmanager.HLAfederation or HLAmanager.HLAfederate, there is no
-/// object and nothing is worked out. From the first subscription on it has a slot among the
-/// federates, as the owner of objects, but has not joined: it is sent nothing, and nobody counts
-/// it.
+/// object and no cost. From the first subscription on the RTI has a slot among the federates, as
+/// the owner of objects, but has not joined: it is sent nothing and not counted.
 class ManagementObjects {
  public:
   struct Uses {
@@ -42,21 +41,21 @@ class ManagementObjects {
         federation_class_(handles.federation),
         federate_class_(handles.federate) {}
 
-  /// Somebody's subscriptions changed: to whom it now hears anything, everything is up to date at
-  /// the next flush.
+  /// A federate's subscriptions changed: a new subscriber gets all values with the next flush.
   void subscribed(std::uint32_t slot);
   void joined(std::uint32_t slot);
-  /// While it is still known what it was.
+  /// Call it while the federate's record still exists.
   void left(std::uint32_t slot);
-  /// Its period of reports has changed [s], 0 for none: the next one is due a period from now.
+  /// The federate's period of reports has changed [s], 0 for none: the next one is due a period
+  /// from now.
   void timed(std::uint32_t slot, double period);
   /// HLAautoProvide has changed.
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
-  /// Once per flush, before it.
+  /// Sends due reports; called once before each flush.
   void notify();
 
  private:
-  /// One object of ours.
+  /// One object of the RTI's.
   struct ReportedObject {
     ObjectHandle object;  ///< none: not registered
     AttributeSet asked;
@@ -69,7 +68,7 @@ class ManagementObjects {
   /// Without a block of handles that is left, there is no object.
   void add(ReportedObject& reported, ObjectClassHandle object_class);
   void remove(ReportedObject& reported);
-  /// They are reported whether they have changed or not.
+  /// Marks attributes to be reported whether they have changed or not.
   void ask(ObjectHandle object, AttributeSet attributes);
   ReportedObject& reported_of(std::uint32_t slot);
   void report_federation();
@@ -80,8 +79,8 @@ class ManagementObjects {
   bool receives(std::uint32_t slot) const;
   void value_counts(std::uint32_t slot);
   void value_times(std::uint32_t slot, unsigned state);
-  /// The values of the class's attributes are in `values_`, those of attribute k up to `ends_[k]`:
-  /// tells those that differ from what was told, and those asked for.
+  /// Sends those values that differ from the last report and those that were requested. The values
+  /// are in `values_`, those of attribute k up to `ends_[k]`.
   void update(ReportedObject& reported);
   void begin_values(ObjectClassHandle object_class);
   template <class Write>
@@ -99,8 +98,8 @@ class ManagementObjects {
       slots_;  ///< by object, of the federates that they are about
   std::vector<std::byte> values_, before_, changed_;
   std::vector<std::size_t> ends_;
-  std::vector<std::uint32_t> deletable_;  ///< by slot: objects that it may delete, worked out once
-                                          ///< per `notify` that needs it
+  std::vector<std::uint32_t> deletable_;  ///< by slot: objects that it may delete, counted once per
+                                          ///< `notify` that needs it
   bool has_counted_ = false;
 };
 

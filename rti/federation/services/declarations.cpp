@@ -1,4 +1,4 @@
-// Publications and subscriptions, and advisories to those whom others' subscriptions concern.
+// Handles publications and subscriptions, and advises publishers of others' subscriptions.
 #include "rti/federation/services/declarations.h"
 
 #include <algorithm>
@@ -84,8 +84,8 @@ Subscription Declarations::subscribed(std::uint32_t slot, std::size_t row) const
                              : uses_.distribution.subscribed_anywhere(slot, number);
 }
 
-/// What others than `slot` subscribe to of a row. The RTI itself receives what the management
-/// object model lets federates ask of it.
+/// The subscriptions of all but `slot` to a row. The RTI itself receives the requests of the
+/// management object model.
 Subscription Declarations::others_subscribe(std::uint32_t slot, std::size_t row) const {
   if (is_interaction(row) && basis_.fom.is_for_rti(InteractionClassHandle{number_of(row)}))
     return Relevance::of(Listening::active);
@@ -140,7 +140,7 @@ void Declarations::advise_owners_of(ObjectSlot object) {
   }
 }
 
-/// Of what it owns: what is in the scope of some active subscriber.
+/// The owner's attributes of the object that are in the scope of some active subscriber.
 AttributeSet Declarations::subscribed_of(std::uint32_t owner, ObjectSlot object) const {
   AttributeSet subscribed;
   const AttributeSet owned =

@@ -1,5 +1,5 @@
-// What federates publish and subscribe, and who is advised that somebody subscribes (IEEE
-// 1516.1-2010, clause 5; docs/rti.md, "Nobody listens").
+// Federates' publications and subscriptions, and advice to publishers whether anybody subscribes
+// (IEEE 1516.1-2010, clause 5; docs/rti.md, "Nobody listens").
 #pragma once
 
 #include <cstddef>
@@ -35,25 +35,25 @@ class Declarations {
   Status handle_publish_interaction(std::uint32_t slot, Reader& reader);
   Status handle_advisory_switch(std::uint32_t slot, Reader& reader);
 
-  /// Takes what it subscribes now into account, and tells publishers who are concerned, at once:
-  /// whatever a subscriber says next reaches them after that.
+  /// Notes the federate's present subscriptions, and advises the publishers concerned at once:
+  /// later messages of the subscriber reach them after that.
   void subscriptions_changed(std::uint32_t slot);
   /// True if anybody subscribes to the class.
   bool is_subscribed(ObjectClassHandle object_class) const {
     return !relevance_.of_others(no_federate, object_class.value).subscribed.is_empty();
   }
-  /// Tells owners who asked for it which of their attributes are in the scope of an active
-  /// subscriber now. Nothing is kept or done where nobody asked.
+  /// Notifies owners that asked for it which of their attributes are in the scope of an active
+  /// subscriber now. Costs nothing where none asked.
   void advise_object_relevance();
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot) { advised_[slot] = {}; }
 
  private:
-  /// What a publisher knows of those who hear it.
+  /// The last advice to a publisher about its subscribers.
   struct Advised {
     std::vector<Subscription> classes;                 ///< by row of `Relevance`
-    std::unique_ptr<ObjectMap<AttributeSet>> objects;  ///< if it asked for it: those that others
-                                                       ///< hear
+    std::unique_ptr<ObjectMap<AttributeSet>> objects;  ///< if it asked for it: those in others'
+                                                       ///< scope
   };
   Subscription subscribed(std::uint32_t slot, std::size_t row) const;
   Subscription others_subscribe(std::uint32_t slot, std::size_t row) const;
@@ -62,7 +62,7 @@ class Declarations {
   void advise(std::uint32_t slot, std::size_t row);
   void advise_owners_of(ObjectSlot object);
   AttributeSet subscribed_of(std::uint32_t owner, ObjectSlot object) const;
-  /// Of an interaction class its number, after those of objects.
+  /// Rows of interaction classes follow those of object classes.
   bool is_interaction(std::size_t row) const { return row >= basis_.fom.object_classes().size(); }
   std::uint16_t number_of(std::size_t row) const {
     return static_cast<std::uint16_t>(is_interaction(row) ? row - basis_.fom.object_classes().size()

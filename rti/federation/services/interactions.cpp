@@ -1,4 +1,4 @@
-// Interactions on their way, and the groups that they go to.
+// Delivers interactions to the groups of their classes.
 #include "rti/federation/services/interactions.h"
 
 #include <cassert>
@@ -92,8 +92,8 @@ Status Interactions::accept(std::uint32_t slot, const InteractionMessage& messag
   if (!publications_.has_interaction(slot, message.interaction_class)) return Violation::undeclared;
   ++basis_.counters.interactions_received;
   ++basis_.federates[slot].counts.interactions_sent;
-  // Interactions are never held back, so a shouter would fill the queues of those who listen, and
-  // they would be closed instead of it.
+  // Interactions are never held back, so one sender of too many would fill the queues of its
+  // receivers, which would be closed instead of it.
   receivers = groups_.receivers(message.interaction_class, slot);
   if (!receivers.empty()) federates_[slot].bytes_sent += head_size + message.parameters.size();
   return std::nullopt;

@@ -1,4 +1,4 @@
-// Interactions: who subscribes to which, and whom each one reaches.
+// Interactions: the subscribers of each class, and the receivers of each interaction.
 #pragma once
 
 #include <cstddef>
@@ -25,34 +25,36 @@ class Interactions {
 
   Status handle_subscribe(std::uint32_t slot, Reader& reader);
   Status handle_subscribe_within(std::uint32_t slot, Reader& reader);
-  /// Those who subscribe to a class or a superclass, in whatever region, belong to its group.
+  /// Puts the federate into the groups of the classes to which it subscribes, also by a superclass,
+  /// in any region.
   void join_groups(std::uint32_t slot);
-  /// How it subscribes to the class or a superclass, with and without regions.
+  /// How the federate subscribes to the class or a superclass, with and without regions.
   Listening listening(std::uint32_t slot, std::uint16_t interaction_class) const;
-  /// Of the class's group; a sender in it is left out.
+  /// The members of the class's group without the sender.
   Receivers receivers(std::uint16_t interaction_class, std::uint32_t sender) {
     return groups_.receivers(interaction_class, sender);
   }
 
   Status read(Reader& reader, InteractionMessage& message) const;
-  /// With the sender's regions, which must be there.
+  /// Reads an interaction with the sender's regions, which must exist.
   Status read_within(std::uint32_t slot, Reader& reader, InteractionMessage& message,
                      std::vector<RegionHandle>& regions) const;
-  /// Whether it may be said, and to whom it would go.
+  /// Checks whether the federate may send the interaction, and finds its receivers.
   Status accept(std::uint32_t slot, const InteractionMessage& message, Receivers& receivers);
-  /// What was accepted. `regions` are the sender's; none: the default region, which overlaps all.
+  /// Delivers an accepted interaction. `regions` are the sender's; if there are none, it has the
+  /// default region, which overlaps all.
   Status deliver(std::uint32_t slot, InteractionMessage& message, Receivers receivers,
                  std::span<const RegionHandle> regions);
-  /// By the RTI itself, to all who subscribe. Its bytes count as said by who asked for it, so that
-  /// asking can't fill the queues of those who listen.
+  /// Sends an interaction of the RTI itself to all subscribers. Its bytes count as sent by the
+  /// federate that requested it, so that requests cannot fill the queues of subscribers.
   void report(std::uint32_t asking, InteractionClassHandle interaction_class, Bytes parameters);
-  /// From now on everybody may say as much again.
+  /// Resets the limits of what each federate may send between two flushes.
   void flushed();
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot);
 
  private:
-  /// What an interaction costs beside its parameters, roughly.
+  /// About what an interaction takes beside its parameters [bytes].
   static constexpr std::size_t head_size = 16;
   bool receives_everywhere(std::uint32_t slot, std::uint16_t interaction_class) const;
   void deliver_to(std::uint32_t receiver, InteractionMessage& message);

@@ -1,4 +1,4 @@
-// Which objects a federate may name, and what it means if there is none of that handle.
+// Finds the objects that federates name, and forgives names of objects that were just deleted.
 #pragma once
 
 #include <cassert>
@@ -21,8 +21,8 @@ class KnownObjects {
         distribution_(distribution),
         counters_(counters) {}
 
-  /// True, and counted, if an object of that handle was here: who may delete it did so while this
-  /// was on its way, which is nobody's crime.
+  /// True, and counted, if an object of that handle existed: it was deleted while the message was
+  /// on its way, which breaks no rule.
   bool is_late(ObjectHandle handle) {
     const bool was_here = objects_.was_registered(handle);
     counters_.late_requests += was_here ? 1u : 0u;
@@ -33,12 +33,12 @@ class KnownObjects {
     return objects_[object].owner == slot || distribution_.of(slot).known.contains(object) ||
            !ownership_.owned_by(slot, object).is_empty();
   }
-  /// The object that is meant, or no_object if it was deleted meanwhile.
+  /// The object of the handle, or `no_object` if it was deleted meanwhile.
   Status find(ObjectHandle handle, ObjectSlot& object) {
     object = objects_.find(handle);
     return object != no_object || is_late(handle) ? Status() : Violation::unknown_name;
   }
-  /// The same of one that the federate must know.
+  /// The object of the handle, which the federate must know.
   Status find_known(std::uint32_t slot, ObjectHandle handle, ObjectSlot& object) {
     const Status status = find(handle, object);
     if (status || object == no_object) return status;

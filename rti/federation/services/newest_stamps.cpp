@@ -1,4 +1,4 @@
-// The long way to an object's newest stamp, once some object has changed hands.
+// The general case of an object's newest stamp, needed once some object has changed owners.
 #include "rti/federation/services/newest_stamps.h"
 
 namespace rink::rti {

@@ -1,4 +1,4 @@
-// Until when what is known of an object holds: the newest stamp of its owner.
+// The time until which the known state of an object holds: the newest stamp of its owner.
 #pragma once
 
 #include <cassert>
@@ -11,7 +11,7 @@
 
 namespace rink::rti {
 
-/// All that a federate says of its objects holds at least until its latest update.
+/// The state of a federate's objects holds at least until its latest update of any of them.
 class NewestStamps {
  public:
   NewestStamps(const ObjectTable& objects, const Ownership& ownership)
@@ -22,12 +22,12 @@ class NewestStamps {
     newest_[slot] = {};
   }
   void left(std::uint32_t slot) { newest_[slot] = {}; }
-  /// By its latest update.
+  /// Notes the stamp of the federate's latest update.
   void note(std::uint32_t slot, const Stamp& stamp) {
     assert(slot < newest_.size());
     newest_[slot] = stamp;
   }
-  /// By one that may have been overtaken on its way.
+  /// Notes the stamp of an update that may have been overtaken on its way.
   void note_unless_older(std::uint32_t slot, const Stamp& stamp) {
     if (stamp.time >= newest_[slot].time) newest_[slot] = stamp;
   }
@@ -35,12 +35,12 @@ class NewestStamps {
     if (newest_[slot].time < stamp.time) newest_[slot] = stamp;
   }
 
-  /// The newest stamp of its owners, but not older than what a former owner said.
+  /// The newest stamp of the object's owners, but not older than a former owner's.
   Stamp of(ObjectSlot object) const {
     const std::uint32_t owner = objects_[object].owner;
     return inherited_.empty() && owner < newest_.size() ? newest_[owner] : among_owners(object);
   }
-  /// It changes hands, and holds until `newest` at least.
+  /// The object changes owners, and its state holds until `newest` at least.
   void inherit(ObjectSlot object, const Stamp& newest) {
     assert(object < objects_.slot_count());
     if (object >= inherited_.size()) inherited_.resize(objects_.slot_count());

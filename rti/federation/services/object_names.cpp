@@ -1,4 +1,4 @@
-// Reservations of names, and what becomes of them.
+// Grants, uses and releases reservations of names.
 #include "rti/federation/services/object_names.h"
 
 #include <algorithm>

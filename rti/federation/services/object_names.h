@@ -22,12 +22,12 @@ class ObjectNames {
       : federates_(federates), name_max_(name_max) {}
 
   Status handle(std::uint32_t slot, Reader& reader);
-  /// For an object that is being registered: its sender's reservation, or a name that is free. Else
-  /// its sender is told.
+  /// Takes a name for an object that is being registered: the sender's reservation, or a free name.
+  /// If it is neither, notifies the sender and returns false.
   bool take(std::uint32_t slot, std::string_view name);
-  /// The object that had it is gone.
+  /// Frees the name of an object that is gone.
   void give_back(const std::string& name) { names_.erase(name); }
-  /// What it reserved and did not use is free again.
+  /// Frees the names that the federate reserved and did not use.
   void left(std::uint32_t slot);
 
  private:

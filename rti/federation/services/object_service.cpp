@@ -1,4 +1,5 @@
-// Registrations within what each federate may have, and removals that reach all who know.
+// Registers objects within each federate's share, and removes them for all federates that know
+// them.
 #include "rti/federation/services/object_service.h"
 
 #include <cassert>
@@ -20,7 +21,7 @@ void ObjectService::left(std::uint32_t slot) {
   if (registered.further_block) basis_.federates.give_back(*registered.further_block);
   const std::uint32_t block = basis_.federates[slot].block;
   if (registered.count == 0) basis_.federates.give_back(block);
-  else basis_.objects.close_block(block);  // its handles have been seen
+  else basis_.objects.close_block(block);  // others have seen its handles
   registered = {};
 }
 
@@ -36,12 +37,12 @@ Status ObjectService::handle_register(std::uint32_t slot, Reader& reader) {
   Registered& registered = federates_[slot];
   assert(registered.count <= object_block);
   if (registered.count == object_block && !extend_block(slot)) return Violation::over_limit;
-  // Handles come in order, so that a stranger can't make the table grow by naming a great one.
+  // Handles must come in order, so that no federate can make the table grow by naming a great one.
   if (message.object != basis_.federates[slot].block * object_block + registered.count)
     return Violation::unknown_name;
   if (++registered.count == object_block / 2) promise_block(slot);
   registered.name_bytes += message.name.size();
-  // Those who have more than their share are refused first, so nobody's hoard keeps others from
+  // Federates with more than their share are refused first, so that none can keep others from
   // theirs.
   const bool is_full = basis_.objects.size() >= settings.object_max &&
                        own >= settings.object_max / basis_.federates.joined_count();
@@ -53,7 +54,7 @@ Status ObjectService::handle_register(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-/// Objects that it has registered and that are there.
+/// The number of living objects that the federate has registered.
 std::size_t ObjectService::alive(std::uint32_t slot) const {
   std::size_t count = basis_.objects.alive_in(basis_.federates[slot].block);
   for (const std::uint32_t block : federates_[slot].former_blocks)
@@ -61,7 +62,7 @@ std::size_t ObjectService::alive(std::uint32_t slot) const {
   return count;
 }
 
-/// Goes on in the block that it was given; false if no block was left to give.
+/// Continues in the further block that the federate was given; false if none was left to give.
 bool ObjectService::extend_block(std::uint32_t slot) {
   Registered& registered = federates_[slot];
   assert(registered.count == object_block);  // the present one is used up
@@ -74,7 +75,7 @@ bool ObjectService::extend_block(std::uint32_t slot) {
   return true;
 }
 
-/// For when half of what is left is used too.
+/// Gives the federate a further block before the present one is used up.
 void ObjectService::promise_block(std::uint32_t slot) {
   if (!basis_.federates.has_block()) return;
   const std::uint32_t block = basis_.federates.take_block();
@@ -83,7 +84,8 @@ void ObjectService::promise_block(std::uint32_t slot) {
   basis_.federates[slot].outbox.before_updates(FurtherBlockMessage{block});
 }
 
-/// Its registrar hears that it is removed; what it says of it meanwhile is late and no crime.
+/// Notifies the registrar that the object is removed; messages about it meanwhile are late and
+/// break no rule.
 void ObjectService::refuse(std::uint32_t slot, ObjectHandle object) {
   basis_.objects.pass_over(object);
   basis_.federates[slot].outbox.after_updates(RemoveObjectMessage{object.value});
@@ -121,7 +123,7 @@ Status ObjectService::handle_delete(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-/// Its confirmation comes before whatever makes the object discovered anew.
+/// The confirmation precedes any message by which the object is discovered anew.
 Status ObjectService::handle_local_delete(std::uint32_t slot, Reader& reader) {
   LocalDeleteMessage message;
   if (!exchange(reader, message)) return Violation::malformed;

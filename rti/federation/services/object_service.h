@@ -38,16 +38,17 @@ class ObjectService {
   Status handle_delete(std::uint32_t slot, Reader& reader);
   Status handle_local_delete(std::uint32_t slot, Reader& reader);
 
-  /// All federates that know it receive the removal, the one that deleted it too: until then it may
-  /// receive updates.
+  /// All federates that know the object receive the removal, the one that deleted it too: until
+  /// then it may receive updates.
   void remove(ObjectSlot object);
-  /// One of the RTI's own, whose slot never joined; none if no block of handles is left to give.
+  /// Registers an object of the RTI's own, whose slot never joined; returns none if no block of
+  /// handles is left.
   ObjectHandle register_own(std::uint32_t slot, ObjectClassHandle object_class);
-  /// In its present block.
+  /// The number of handles that the federate has used of its present block.
   std::uint32_t registered(std::uint32_t slot) const {
     return slot < federates_.size() ? federates_[slot].count : 0;
   }
-  /// Calls `visit(object)` for each living object that it has registered.
+  /// Calls `visit(object)` for each living object that the federate has registered.
   template <class Visit>
   void for_each_registered(std::uint32_t slot, Visit visit) const {
     for (const std::uint32_t block : federates_[slot].former_blocks)
@@ -55,11 +56,11 @@ class ObjectService {
     basis_.objects.for_each_in_block(basis_.federates[slot].block, visit);
   }
   void joined(std::uint32_t slot);
-  /// Blocks of which nothing was seen serve again.
+  /// Takes back the federate's blocks of which no handle was seen.
   void left(std::uint32_t slot);
 
  private:
-  /// What a federate has registered.
+  /// A federate's registrations.
   struct Registered {
     std::uint32_t count = 0;                     ///< in its present block
     std::optional<std::uint32_t> further_block;  ///< given for when this one is used up

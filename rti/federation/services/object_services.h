@@ -46,7 +46,8 @@ struct ObjectServices {
     objects.joined(slot);
     requests.joined(slot);
   }
-  /// What nobody hears of; names, requests and objects go before, each at its moment.
+  /// Steps of a federate's leaving that no other federate notices; names, requests and objects come
+  /// before, each in its place.
   void left(std::uint32_t slot) {
     publications.left(slot);
     newest.left(slot);

@@ -1,4 +1,4 @@
-// Requests in the order in which they came, and everybody's part of what became of them.
+// Handles ownership requests in the order in which they came, and notifies the federates concerned.
 #include "rti/federation/services/ownership_service.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ OwnershipNotice notice_of(OwnershipEvent::Kind kind) {
   return OwnershipNotice::assumption_requested;
 }
 
-/// Whose words the tag of a request are meant for.
+/// True if the tag of a request is sent with this kind of notice.
 bool carries_tag(OwnershipRequest request, OwnershipEvent::Kind kind) {
   switch (request) {
     case OwnershipRequest::offer:
@@ -146,8 +146,8 @@ Ownership::Events OwnershipService::decide(std::uint32_t slot, ObjectSlot object
   return {};
 }
 
-/// A confirmation without anybody to take it any more (who wanted it cancelled or left) gives the
-/// attributes back, as does a divestiture of what nobody wants.
+/// A confirmation that no federate wants any more (the claimant cancelled or left) gives the
+/// attributes back, as does a divestiture if wanted of what none wants.
 void OwnershipService::give(std::uint32_t slot, ObjectSlot object, OwnershipRequest request,
                             AttributeSet attributes, Bytes tag) {
   Ownership& ownership = uses_.ownership;
@@ -212,7 +212,8 @@ void OwnershipService::discovered(std::uint32_t slot, ObjectSlot object) {
     offer_to(slot, object, uses_.ownership.all(object));
 }
 
-/// To one who may own them since just now: it has published, or discovered the object.
+/// Offers unowned attributes to a federate that may own them now, since it has published or
+/// discovered the object.
 void OwnershipService::offer_to(std::uint32_t slot, ObjectSlot object,
                                 AttributeSet newly_published) {
   const AttributeSet others = uses_.ownership.offered(object)
@@ -226,9 +227,9 @@ void OwnershipService::offer_to(std::uint32_t slot, ObjectSlot object,
          {});
 }
 
-/// The newest state reaches the new owner before the notification. After it comes nothing more, for
-/// what one owns is out of one's scope: neither what was said this tick nor what buffering held
-/// back.
+/// The newest state reaches the new owner before the notification. Afterwards it receives no
+/// updates, since own attributes are out of scope: neither this tick's nor those that buffering
+/// held back.
 void OwnershipService::send_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest) {
   const Object& moved = basis_.objects[object];
   const AttributeSet set =

@@ -1,5 +1,5 @@
-// Ownership management at the RTI: checks what federates ask, lets the state machine decide, tells
-// everybody concerned.
+// Ownership management at the RTI: checks federates' requests, lets the state machine decide, and
+// notifies all concerned.
 #pragma once
 
 #include <cstdint>
@@ -33,14 +33,14 @@ class OwnershipService {
   Status handle_query(std::uint32_t slot, Reader& reader);
   Status handle_resign_directive(std::uint32_t slot, Reader& reader);
 
-  /// Publishing less gives up what it owns of it (5.3); publishing more, it may be asked to take
-  /// what has no owner.
+  /// A federate that publishes less gives up what it owns of that (5.3); one that publishes more
+  /// may be offered attributes without an owner.
   void published_changed(std::uint32_t slot, std::uint16_t object_class, AttributeSet before);
-  /// It may take what looks for an owner.
+  /// Offers the discovered object's unowned attributes to the federate.
   void discovered(std::uint32_t slot, ObjectSlot object);
-  /// The newest state goes before all that the next flush says to it.
+  /// The newest state precedes all else that the next flush sends to the federate.
   void send_state(std::uint32_t slot, ObjectSlot object, const Stamp& newest);
-  /// Calls `visit(object)` for each object of which it owns anything.
+  /// Calls `visit(object)` for each object of which the federate owns an attribute.
   template <class Visit>
   void for_each_owned(std::uint32_t slot, Visit visit) const {
     if (!has_moved_) return uses_.objects.for_each_registered(slot, visit);
@@ -49,7 +49,7 @@ class OwnershipService {
         visit(object);
   }
   void joined(std::uint32_t slot);
-  /// What it owns goes the way that it chose.
+  /// Divests or deletes what the federate owns, as it chose.
   void left(std::uint32_t slot);
 
  private:
@@ -64,7 +64,7 @@ class OwnershipService {
   void moved(ObjectSlot object, const Stamp& newest);
   void notify(std::uint32_t slot, OwnershipNotice notice, ObjectHandle object,
               AttributeSet attributes, Bytes tag);
-  /// Of one request.
+  /// The context of one request.
   struct RequestContext {
     OwnershipRequest request;
     Bytes tag;
@@ -77,7 +77,8 @@ class OwnershipService {
 
   FederationBasis basis_;
   Uses uses_;
-  bool has_moved_ = false;                    ///< else whatever a federate owns is in its blocks
+  bool has_moved_ = false;                    ///< else all objects that a federate owns are in its
+                                              ///< blocks
   std::vector<ResignAction> resign_actions_;  ///< by slot
 };
 

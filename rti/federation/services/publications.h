@@ -1,4 +1,4 @@
-// What each federate publishes, which most services ask and only declarations write.
+// Each federate's publications, which most services read and only `Declarations` changes.
 #pragma once
 
 #include <cassert>
@@ -17,7 +17,7 @@ class Publications {
       : object_classes_(fom.object_classes().size()),
         interaction_classes_(fom.interaction_classes().size()) {}
 
-  /// Nothing yet.
+  /// The federate publishes nothing yet.
   void joined(std::uint32_t slot) {
     if (slot >= federates_.size()) federates_.resize(slot + 1);
     federates_[slot].objects.assign(object_classes_, {});
@@ -36,7 +36,7 @@ class Publications {
     assert(interaction_class < interaction_classes_);
     return federates_[slot].interactions[interaction_class];
   }
-  /// What it published of the class before.
+  /// Returns what the federate published of the class before.
   AttributeSet set_class(std::uint32_t slot, std::uint32_t object_class, AttributeSet attributes) {
     assert(object_class < object_classes_);
     return std::exchange(federates_[slot].objects[object_class], attributes);

@@ -1,4 +1,4 @@
-// Regions on their way from the wire to the data distribution.
+// Checks messages about regions and passes them to the data distribution.
 #include "rti/federation/services/region_service.h"
 
 namespace rink::rti {
@@ -68,8 +68,8 @@ Status RegionService::handle_modify_ranges(std::uint32_t slot, Reader& reader) {
   ModifyRangesMessage message;
   if (!exchange(reader, message)) return Violation::malformed;
   const RegionHandle region{message.region};
-  // A model without X and Y has regions over the plane all the same, whose ranges have no
-  // dimensions to go by.
+  // A model without X and Y has regions over the plane all the same, but a message with ranges
+  // cannot name those.
   if (message.count == 0 || !uses_.distribution.has_region(slot, region) ||
       uses_.distribution.dimensions(slot, region).count() != message.count)
     return Violation::unknown_name;

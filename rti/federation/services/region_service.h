@@ -1,4 +1,4 @@
-// What federates say of regions: checked once, here; then it is the data distribution's (IEEE
+// Federates' messages about regions: checked once, here, then passed to the data distribution (IEEE
 // 1516.1-2010, clause 9).
 #pragma once
 
@@ -27,13 +27,13 @@ class RegionService {
 
   Status handle_create(std::uint32_t slot, Reader& reader);
   Status handle_create_over(std::uint32_t slot, Reader& reader);
-  /// Its subscriptions end.
+  /// Ends the subscriptions with the region too.
   Status handle_delete(std::uint32_t slot, Reader& reader);
   Status handle_modify(std::uint32_t slot, Reader& reader);
   Status handle_modify_ranges(std::uint32_t slot, Reader& reader);
   Status handle_associate(std::uint32_t slot, Reader& reader);
   Status handle_associate_parts(std::uint32_t slot, Reader& reader);
-  /// A subscription, its end, or a request for updates.
+  /// Handles a subscription, its end, or a request for updates.
   Status handle_class(std::uint32_t slot, Reader& reader);
 
  private:
@@ -43,7 +43,7 @@ class RegionService {
 
   FederationBasis basis_;
   Uses uses_;
-  std::vector<Range> ranges_;  ///< of the region at hand
+  std::vector<Range> ranges_;  ///< of one region
 };
 
 }  // namespace rink::rti

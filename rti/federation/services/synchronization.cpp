@@ -1,4 +1,5 @@
-// Points on their way from registration to the last of those who must achieve them.
+// Registers synchronisation points, and announces them as reached when the last federate has
+// achieved them.
 #include "rti/federation/services/synchronization.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ Status Synchronization::handle_achieved(std::uint32_t slot, Reader& reader) {
   const auto point =
       std::find_if(points_.begin(), points_.end(),
                    [&](const SynchronizationPoint& each) { return each.label == message.label; });
-  // Nobody who is awaited can lose a race: the point stays until all have spoken.
+  // An awaited federate always finds the point, which stays until all have answered.
   if (point == points_.end() || std::erase(point->awaited, slot) == 0)
     return Violation::unknown_name;
   if (message.is_success == 0) point->failed.push_back(federates_[slot].handle);
@@ -87,8 +88,8 @@ void Synchronization::left(std::uint32_t slot) {
   complete();
 }
 
-/// Points outlive who registered them, but not so many that joining, registering and leaving over
-/// and over grows for ever.
+/// Points outlive the federates that registered them, but only up to a limit, so that joining,
+/// registering and leaving over and over cannot grow for ever.
 void Synchronization::orphan(FederateHandle registrar) {
   auto left = std::ranges::count_if(
       points_, [](const SynchronizationPoint& each) { return !each.registrar; });

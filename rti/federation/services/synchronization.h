@@ -1,5 +1,5 @@
-// Synchronisation points: who registers them, who must achieve them, and when they are reached
-// (IEEE 1516.1-2010, 4.11 to 4.15).
+// Synchronisation points: registered, announced, achieved and reached (IEEE 1516.1-2010, 4.11 to
+// 4.15).
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ class Synchronization {
 
   Status handle_register(std::uint32_t slot, Reader& reader);
   Status handle_achieved(std::uint32_t slot, Reader& reader);
-  /// Who joins belongs to every point that is for all.
+  /// A federate that joins belongs to every point that is for all.
   void joined(std::uint32_t slot);
-  /// Who leaves is not waited for any more.
+  /// A federate that leaves is no longer waited for.
   void left(std::uint32_t slot);
   const std::vector<SynchronizationPoint>& points() const { return points_; }
 

@@ -1,4 +1,4 @@
-// Changes of the transportation, and answers to who asks for it.
+// Changes transportation types, and answers queries for them.
 #include "rti/federation/services/transportation_types.h"
 
 #include "rti/wire/datagram.h"

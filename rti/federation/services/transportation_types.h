@@ -1,5 +1,5 @@
-// What travels reliably and what by best effort, as the model says and federates change it (IEEE
-// 1516.1-2010, 6.23 to 6.30).
+// Transportation types, reliable or best effort, as the model states and federates change them
+// (IEEE 1516.1-2010, 6.23 to 6.30).
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ class TransportationTypes {
   Status handle_change(std::uint32_t slot, Reader& reader);
   Status handle_query(std::uint32_t slot, Reader& reader);
 
-  /// Of a class, as the model says.
+  /// The best-effort attributes of a class in the model.
   AttributeSet best_effort(std::uint16_t object_class) const { return best_effort_[object_class]; }
   bool has_best_effort() const { return has_best_effort_; }
-  /// Those that may travel by datagram: what the model says may become reliable, and only what it
-  /// says travels so at all.
+  /// The attributes that may travel by datagram: best-effort in the model and not changed to
+  /// reliable.
   AttributeSet by_datagram(ObjectSlot object) const {
     return chosen(object) & best_effort_[basis_.objects[object].object_class];
   }
-  /// Of any object.
+  /// True if the type of any object's attributes has changed.
   bool has_changed() const { return objects_.size() > 0; }
   void forget(ObjectHandle object) {
     if (has_changed()) objects_.erase(object);
@@ -42,7 +42,7 @@ class TransportationTypes {
 
  private:
   using ChangedInteractions = std::vector<std::pair<std::uint16_t, Transportation>>;
-  /// Its attributes by best effort, whether there are datagrams for them or not.
+  /// The object's best-effort attributes, whether datagrams carry them or not.
   AttributeSet chosen(ObjectSlot object) const {
     const AttributeSet* changed =
         has_changed() ? objects_.find(basis_.objects[object].handle) : nullptr;
@@ -58,9 +58,8 @@ class TransportationTypes {
   KnownObjects& known_;
   std::vector<AttributeSet> best_effort_;  ///< by class
   bool has_best_effort_ = false;           ///< any at all
-  ObjectMap<AttributeSet> objects_;  ///< whose attributes travel otherwise than the model says:
-                                     ///< those by best effort
-  std::vector<ChangedInteractions> interactions_;  ///< by sender's slot: otherwise than it says
+  ObjectMap<AttributeSet> objects_;  ///< objects with changed types: their best-effort attributes
+  std::vector<ChangedInteractions> interactions_;  ///< by sender's slot: changed types
 };
 
 }  // namespace rink::rti

@@ -1,4 +1,4 @@
-// Requests are kept until the flush, for looking through all objects is dear.
+// Keeps requests until the flush, since each look through all objects is expensive.
 #include "rti/federation/services/update_requests.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ void UpdateRequests::ask_within(std::uint32_t slot, RegionHandle region, std::ui
   asked = asked | attributes;
 }
 
-/// Nobody is asked for what is its own.
+/// A federate is not asked for its own attributes.
 void UpdateRequests::ask(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
                          Bytes tag) {
   if (attributes.is_empty()) return;
@@ -74,7 +74,7 @@ void UpdateRequests::ask(std::uint32_t slot, ObjectSlot object, AttributeSet att
   else ownership_.for_each_owner(object, ask_owner);
 }
 
-/// Looks at every object: it is asked for seldom, and what overlaps is not kept.
+/// Looks at every object: such requests are rare, and overlaps are not stored.
 void UpdateRequests::find_owners(std::uint32_t slot, ObjectClassHandle object_class,
                                  AttributeSet attributes, RegionHandle region, Bytes tag) {
   const ObjectSlot count = basis_.objects.slot_count();

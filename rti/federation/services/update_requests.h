@@ -1,5 +1,4 @@
-// Requests for the values of attributes, from who asks to those who own them (IEEE 1516.1-2010,
-// 6.19 and 6.20).
+// Forwards requests for the values of attributes to their owners (IEEE 1516.1-2010, 6.19 and 6.20).
 #pragma once
 
 #include <cstddef>
@@ -19,7 +18,7 @@
 
 namespace rink::rti {
 
-/// However often is asked, each owner is told of an object once per flush and tag.
+/// However many requests there are, each owner gets one per object, flush and tag.
 class UpdateRequests {
  public:
   UpdateRequests(const FederationBasis& basis, const Ownership& ownership,
@@ -31,17 +30,17 @@ class UpdateRequests {
         is_auto_providing_(basis.fom.switches().auto_provide) {}
 
   Status handle(std::uint32_t slot, Reader& reader);
-  /// For what overlaps a region of the federate that asks.
+  /// Requests attributes that overlap a region of the requesting federate.
   void ask_within(std::uint32_t slot, RegionHandle region, std::uint16_t object_class,
                   AttributeSet attributes);
-  /// Those within a region that is about to go. Who makes regions, asks and deletes them faster
-  /// than anybody can look is not waited for.
+  /// Settles requests within a region that is about to be deleted. A federate that makes regions,
+  /// requests and deletes faster than objects can be searched breaks a limit.
   Status settle_within(std::uint32_t slot, RegionHandle region);
-  /// Looks for the objects that requests mean, and asks their owners. Once per flush.
+  /// Finds the objects of all requests, and asks their owners. Called once per flush.
   void settle();
-  /// From now on as many objects again are looked at for everybody.
+  /// Resets the number of objects that may be searched for each federate.
   void flushed();
-  /// It is about to be told of an object for the first time.
+  /// The federate is about to discover the object.
   void discovered(std::uint32_t slot, ObjectSlot object, AttributeSet discovered_set) {
     if (is_auto_providing_) ask(slot, object, discovered_set, {});
   }
@@ -50,7 +49,7 @@ class UpdateRequests {
 
   bool is_auto_providing() const { return is_auto_providing_; }
   void provide_automatically(bool is_on) { is_auto_providing_ = is_on; }
-  /// What was asked of the RTI, whose objects are those of no federate that has joined.
+  /// A request to the RTI itself, as the owner of the management objects.
   struct Asked {
     ObjectHandle object;
     AttributeSet attributes;

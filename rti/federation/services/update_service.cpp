@@ -1,4 +1,4 @@
-// One update after the other, from a block to the objects' states and the next flush.
+// Applies blocks of updates to the objects' states and puts them into the next flush.
 #include "rti/federation/services/update_service.h"
 
 #include <cassert>

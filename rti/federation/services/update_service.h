@@ -1,4 +1,4 @@
-// Updates that federates send by their streams: checked once, here; then they are state.
+// Updates that federates send by their streams: checked once, here, then stored.
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,12 @@ class UpdateService {
 
   Status handle_stamp(std::uint32_t slot, Reader& reader);
   Status handle_updates(std::uint32_t slot, Reader& reader);
-  /// Its sender keeps newer values back, for nobody heard them when it heard from us last.
+  /// The sender keeps newer values back, since nobody subscribed when it was last advised.
   Status handle_spare(std::uint32_t slot, Reader& reader);
-  /// Values that its owner was allowed to say, by whichever way they came.
+  /// Stores values that were checked, by whichever channel they came.
   void store(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp,
              Bytes values);
-  /// A stamp is good for its frame.
+  /// A stamp holds for its frame only.
   void begin_frame(std::uint32_t slot) { stamps_[slot].reset(); }
   void joined(std::uint32_t slot);
 
@@ -44,8 +44,8 @@ class UpdateService {
 
   FederationBasis basis_;
   Uses uses_;
-  std::vector<std::optional<Stamp>> stamps_;  ///< by slot: of the updates in the frame at hand,
-                                              ///< once it was said
+  std::vector<std::optional<Stamp>> stamps_;  ///< by slot: of the updates in the present frame,
+                                              ///< once received
 };
 
 }  // namespace rink::rti

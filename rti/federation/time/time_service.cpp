@@ -1,4 +1,4 @@
-// Requests of federates, and who must go when more is kept for them than there is room for.
+// Handles requests about time, and expels federates when messages fill the room for them.
 #include "rti/federation/time/time_service.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace rink::rti {
 
-/// Of a federate whose messages wait for its time, which no datagram could keep up with.
+/// A federate that uses time management is sent no datagrams, since messages wait for its time.
 TimeManagement& TimeService::begin(std::uint32_t slot) {
   basis_.federates[slot].has_stream_only = true;
   if (!management_) management_ = make_ ? make_() : std::make_unique<ConservativeTime>();
@@ -60,7 +60,7 @@ Status TimeService::handle_advance(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-/// Asked twice in a row, answered once: the answer is longer than the question.
+/// Repeated queries get one answer, since the answer is longer than the query.
 Status TimeService::handle_query(std::uint32_t slot) {
   begin(slot);
   if (asking_.empty() || asking_.back() != slot) asking_.push_back(slot);
@@ -103,7 +103,7 @@ Status TimeService::handle_send(std::uint32_t slot, Reader& reader) {
   return keep(slot);
 }
 
-/// What came in, now that it is checked.
+/// Keeps the message that was read and checked.
 Status TimeService::keep(std::uint32_t slot) {
   FederateCounts& counts = basis_.federates[slot].counts;
   if (incoming_.kind == MessageKind::updates) ++counts.updates_sent;
@@ -128,9 +128,8 @@ Status TimeService::handle_retract(std::uint32_t slot, Reader& reader) {
   return std::nullopt;
 }
 
-/// Forgets what nobody can ask for any more. If that is not enough, whoever holds most of it up
-/// must go: it must not cost the others the federate that they all listen to, nor those who wait
-/// their place.
+/// Forgets messages that nothing needs any more. If that is not enough, the federate that holds up
+/// most of them is expelled, neither the busiest sender nor those that wait.
 void TimeService::make_room(std::uint32_t speaker) {
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
     messages_.forget_final(slot, management_->earliest(slot));
@@ -139,11 +138,11 @@ void TimeService::make_room(std::uint32_t speaker) {
     if (culprit == speaker || culprit == no_federate) return;
     expel_(culprit, Violation::over_limit, ResignReason::lost,
            "more waits for its time than the federation keeps");
-    if (messages_.is_full()) settle();  // what it held up
+    if (messages_.is_full()) settle();  // deliver what it held up
   }
 }
 
-/// The regulating federate that is furthest behind.
+/// Finds the regulating federate that is furthest behind.
 std::uint32_t TimeService::find_last_regulating() const {
   std::uint32_t last = no_federate;
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
@@ -153,9 +152,9 @@ std::uint32_t TimeService::find_last_regulating() const {
   return last;
 }
 
-/// A message that can still be taken back is there for its sender's sake. One that waits in time
-/// for its receiver's next request is there for the receiver's; one that could not be delivered if
-/// it asked is there for the sake of the regulating federate that is furthest behind.
+/// Finds the federate to blame for most messages. A message that can still be retracted counts for
+/// its sender, one that waits for its receiver's next request for the receiver, and one that could
+/// not be delivered even on request for the regulating federate that is furthest behind.
 std::uint32_t TimeService::find_culprit() const {
   const std::uint32_t count = basis_.federates.size(), last = find_last_regulating();
   std::vector<std::size_t> blamed(count);

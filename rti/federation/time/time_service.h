@@ -1,4 +1,4 @@
-// The advance of logical time and what is sent in its order (IEEE 1516.1-2010, clause 8).
+// The advance of logical time and messages in time-stamp order (IEEE 1516.1-2010, clause 8).
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace rink::rti {
 
-/// Asks the time management for what federates request, and tells them what it decides. Nothing is
-/// kept, and nothing done, before the first message of that kind.
+/// Passes federates' requests to the time management, and its decisions to federates. Costs nothing
+/// before the first message of that kind.
 class TimeService final : private TimeListener {
  public:
   using Maker = std::function<std::unique_ptr<TimeManagement>()>;
@@ -46,16 +46,16 @@ class TimeService final : private TimeListener {
   Status handle_send(std::uint32_t slot, Reader& reader);
   Status handle_retract(std::uint32_t slot, Reader& reader);
   Status handle_query(std::uint32_t slot);
-  /// Gives what was sent since the last time to its receivers, then tells grants. Once per flush,
-  /// after the match.
+  /// Distributes messages that were sent since the last call, then sends grants. Called once per
+  /// flush, after the match.
   void settle();
   void joined(std::uint32_t slot);
-  /// The federate is gone; its messages stay.
+  /// The federate has left; its messages stay.
   void left(std::uint32_t slot);
 
-  /// Null until somebody asked for it.
+  /// Null until a federate uses time management.
   const TimeManagement* management() const { return management_.get(); }
-  /// As it last asked for [s].
+  /// The lookahead that the federate last asked for [s].
   double lookahead(std::uint32_t slot) const { return federates_[slot].lookahead; }
   bool is_advancing(std::uint32_t slot) const { return federates_[slot].is_advancing; }
 

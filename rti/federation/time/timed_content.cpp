@@ -1,4 +1,4 @@
-// What a federate sends in time-stamp order, read and checked.
+// Reads and checks messages in time-stamp order.
 #include "rti/federation/time/timed_content.h"
 
 #include "rti/wire/time_messages.h"
@@ -40,7 +40,7 @@ Status TimedContentReader::read_update(std::uint32_t slot, Reader& content,
   if (!is_read || records != 1) return Violation::malformed;
   const ObjectSlot object = basis_.objects.find({message.object});
   const bool is_late =
-      object == no_object && known_.is_late({message.object});  // then nobody will be told
+      object == no_object && known_.is_late({message.object});  // then the message has no receivers
   if (!is_late &&
       (object == no_object || basis_.objects[object].object_class != header.object_class))
     return Violation::unknown_name;
@@ -72,7 +72,7 @@ Status TimedContentReader::read_deletion(std::uint32_t slot, Reader& content,
   const bool is_late = object == no_object
                            ? known_.is_late({wire.object})
                            : basis_.objects[object].is_leaving && known_.is_late({wire.object});
-  if (is_late) {  // what the first deletion does, and its retraction undoes, is its own affair
+  if (is_late) {  // a second deletion has no effect, whether or not the first is retracted
     message.object = ObjectHandle::none;
     return std::nullopt;
   }

@@ -1,4 +1,4 @@
-// What a federate may send in time-stamp order.
+// Reads what a federate may send in time-stamp order.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace rink::rti {
 
-/// Reads the update, interaction or deletion that such a message holds, and checks that its sender
-/// may say it.
+/// Reads the update, interaction or deletion in such a message, and checks that its sender may send
+/// it.
 class TimedContentReader {
  public:
   TimedContentReader(const FederationBasis& basis, const Publications& publications,
                      const Ownership& ownership, KnownObjects& known)
       : basis_(basis), publications_(publications), ownership_(ownership), known_(known) {}
 
-  /// An object of which a deletion was read is leaving from then on.
+  /// Marks an object as leaving when its deletion was read.
   Status read(std::uint32_t slot, Bytes content, StampedMessage& message);
 
  private:

@@ -1,5 +1,5 @@
-// Messages in time-stamp order on their way: whom they go to, when they are sent, and what they
-// leave behind.
+// Finds receivers of messages in time-stamp order, sends the messages, and stores the state that
+// they leave.
 #include "rti/federation/time/timed_delivery.h"
 
 #include <bit>
@@ -60,13 +60,13 @@ void TimedDelivery::find_receivers(std::uint32_t index) {
   if (object == no_object) return;
   find_reflectors(index, object);
   if (message.kind == MessageKind::delete_object)
-    uses_.distribution.object_deleted(object);  // nobody else shall discover it any more
+    uses_.distribution.object_deleted(object);  // no other federate may discover it any more
 }
 
 void TimedDelivery::find_listeners(std::uint32_t index) {
   const StampedMessage& message = messages_[index];
-  // The sender may be gone: its handle then names nobody's slot, and the check in add_receiver() is
-  // all there is.
+  // The sender may have left: its handle then has no slot, and only the check in add_receiver()
+  // remains.
   const std::uint32_t sender = basis_.federates.joined(message.sender).value_or(no_federate);
   for (const std::uint32_t slot : uses_.interactions.receivers(message.class_number, sender))
     if (!message.only || basis_.federates[slot].handle == message.only)
@@ -89,7 +89,7 @@ void TimedDelivery::find_reflectors(std::uint32_t index, ObjectSlot object) {
   }
 }
 
-/// The message in the form in which it travels, in `content_`.
+/// Writes the message into `content_` as it is sent.
 void TimedDelivery::write_content(const StampedMessage& message, AttributeSet attributes) {
   content_.clear();
   if (message.kind == MessageKind::interaction)
@@ -126,7 +126,7 @@ bool TimedDelivery::prepare(std::uint32_t slot, const StampedMessage& message) {
   const bool is_in_scope = interest.in_scope.contains(object);
   if (!is_known && !is_in_scope) return false;
   if (message.kind == MessageKind::delete_object) {
-    interest.unannounced.erase(object);  // for who was not told of it, it was never there
+    interest.unannounced.erase(object);  // the federate was never sent the object
     if (!is_known) return false;
     interest.known.erase(object);
   } else if (is_in_scope && (!is_known || interest.unannounced.contains(object) ||
@@ -184,8 +184,8 @@ void TimedDelivery::withdraw(std::uint32_t index, TimeManagement& management) {
   uses_.distribution.object_registered(object);
 }
 
-/// Nobody waits for it any more: what it says is now the state that newcomers are told. (Earlier,
-/// they would be told what is to come.)
+/// No receiver waits for the message any more: its values become the state that new subscribers
+/// receive. (Earlier, they would receive a state of the future.)
 void TimedDelivery::complete(const StampedMessage& message) {
   const ObjectSlot slot =
       message.kind == MessageKind::interaction ? no_object : basis_.objects.find({message.object});

@@ -31,15 +31,15 @@ class TimedDelivery {
   TimedDelivery(const FederationBasis& basis, TimedMessages& messages, const Uses& uses)
       : basis_(basis), messages_(messages), uses_(uses) {}
 
-  /// It is distributed next.
+  /// Adds the message to those that `distribute` takes.
   void accept(std::uint32_t index) { arrived_.push_back(index); }
-  /// What was accepted: to the queues of those who are constrained, to the others at once.
+  /// Distributes accepted messages: to the queues of constrained receivers, to the others at once.
   void distribute(TimeManagement& management);
-  /// The receiver's time has come.
+  /// Sends the message to a receiver whose time has come.
   void deliver(std::uint32_t slot, const TimedEntry& entry, bool is_in_order);
-  /// The receiver is gone.
+  /// Drops the entry of a receiver that has left.
   void discard(const TimedEntry& entry);
-  /// A message that was retracted leaves all queues; those who have it are asked to take it back.
+  /// Removes a retracted message from all queues, and asks receivers that have it to take it back.
   void withdraw(std::uint32_t index, TimeManagement& management);
 
  private:
@@ -62,8 +62,7 @@ class TimedDelivery {
   std::vector<std::uint32_t> arrived_;  ///< messages to distribute
   std::vector<std::byte> content_;      ///< of the message that is being sent
   std::unordered_map<std::uint32_t, double>
-      stored_until_;  ///< by object: time stamp of the latest update that is its state for
-                      ///< newcomers
+      stored_until_;  ///< by object: time stamp of the latest update in its stored state
 };
 
 }  // namespace rink::rti

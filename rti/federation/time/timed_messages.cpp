@@ -1,4 +1,4 @@
-// How long messages in time-stamp order are kept, and whose they are meanwhile.
+// Keeps messages in time-stamp order, and charges them to their senders.
 #include "rti/federation/time/timed_messages.h"
 
 #include <algorithm>
@@ -9,12 +9,12 @@ namespace rink::rti {
 
 namespace {
 
-/// Memory of messages that is used again: bytes of a body, and places once all are free. A flood's
-/// goes with it.
+/// Limits of the memory that is used again: bytes of a body, and places once all are free. The
+/// memory of a flood is freed.
 constexpr std::size_t body_kept_max = 512, places_kept_max = 4096;
 
-/// A sender has its messages looked through when there are twice as many as were left the last
-/// time, but not before there are as many as these.
+/// A sender's messages are searched when there are twice as many as were left the last time, but
+/// not before there are these many.
 constexpr std::size_t compact_least = 64, compact_bytes_least = 1u << 20;
 
 }  // namespace
@@ -94,7 +94,7 @@ void TimedMessages::forget_final(std::uint32_t slot, double earliest) {
     finish(each.message);
     return true;
   });
-  // Seldom, and in any case where the sender's limit is passed.
+  // The search is rare, but always done where the sender's limit is passed.
   from.compact_at = std::min(std::max(compact_least, 2 * from.sent.size()),
                              settings_.timed_per_federate_max + std::size_t{1});
   from.compact_bytes_at = std::min(std::max(compact_bytes_least, 2 * from.bytes),

@@ -1,4 +1,4 @@
-// Messages in time-stamp order that a federation keeps until nobody can ask for them any more.
+// Messages in time-stamp order, kept until nothing needs them any more.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace rink::rti {
 
-/// What a federate sent in time-stamp order, and who is to have it.
+/// A message that a federate sent in time-stamp order, and its receivers.
 struct StampedMessage {
   struct Receiver {
     FederateHandle federate;
-    AttributeSet attributes;  ///< of an update: what of it
+    AttributeSet attributes;  ///< of an update: the receiver's part
     bool is_waiting = false;  ///< in the receiver's queue
     bool has_it = false;      ///< it was sent on
   };
@@ -28,59 +28,60 @@ struct StampedMessage {
   std::uint16_t class_number = 0;
   FederateHandle only;  ///< of an interaction: the only receiver, if any
   AttributeSet attributes;
-  std::vector<std::byte> body;  ///< of an update its coded values, of an interaction its parameters
+  std::vector<std::byte> body;  ///< the coded values of an update, the parameters of an interaction
   std::vector<Receiver> receivers;
   std::size_t waiting = 0;  ///< receivers in whose queue it is
   bool is_distributed = false, is_retractable = false, is_retracted = false;
 };
 
-/// A message that says nothing yet, in the memory of an old one.
+/// Empties a message for new content and keeps its memory.
 void clear(StampedMessage& message);
 
-/// A message stays while its sender can take it back, while it is not distributed, and while it
-/// waits for a receiver. Its index is valid until then, and its memory is used again.
+/// A message stays while its sender can retract it, while it is not distributed, and while it waits
+/// for a receiver. Its index is valid until then; its memory is used again.
 class TimedMessages {
  public:
   explicit TimedMessages(const FederationSettings& settings) : settings_(settings) {}
 
   void joined(std::uint32_t slot);
-  /// The federate is gone: what it sent stays, and can't be taken back any more.
+  /// The federate has left: its messages stay, and cannot be retracted any more.
   void left(std::uint32_t slot);
 
   bool is_full() const;
-  /// A sender counts its messages upwards.
+  /// True if a sender's next message may have this number: senders count upwards.
   bool may_be_next(std::uint32_t slot, std::uint64_t number) const;
-  /// Takes in `message`, which may be next, and leaves an empty one there. Returns its index.
+  /// Moves `message`, which may be next, out of its place and leaves an empty one there. Returns
+  /// its index.
   std::uint32_t add(std::uint32_t slot, StampedMessage& message);
-  /// True if enough has come from there for forget_final() to be worth its time.
+  /// True if enough messages of the sender are kept for forget_final() to be worth its time.
   bool is_forgetting_due(std::uint32_t slot) const;
-  /// Drops what `slot` can't take back any more: its time stamp lies before `earliest`, the least
-  /// that it could still use.
+  /// Drops messages that `slot` cannot retract any more: their time stamps are before `earliest`,
+  /// the least that it could still use.
   void forget_final(std::uint32_t slot, double earliest);
-  /// What a federate can still take back is there by its own doing: it sends more than it lets time
-  /// pass.
+  /// True if the federate has too many messages that it can still retract, since it sends faster
+  /// than it lets time pass.
   bool is_greedy(std::uint32_t slot) const;
-  /// The sender takes it back, and nothing waits for it any more; finish() follows. Nothing if it
-  /// was taken back before, or its time stamp lies before `earliest`.
+  /// The sender retracts a message, so that it waits for no receiver; finish() follows. Nothing if
+  /// it was retracted before, or its time stamp is before `earliest`.
   std::optional<std::uint32_t> retract(std::uint32_t slot, std::uint64_t number, double earliest);
 
   void add_receiver(std::uint32_t index, FederateHandle federate, AttributeSet attributes);
   void enqueued(std::uint32_t index, std::uint32_t place);
-  /// True if it was the last for which the message waited.
+  /// True if the message waited for no other receiver.
   bool dequeued(std::uint32_t index, std::uint32_t place);
   void sent(std::uint32_t index, std::uint32_t place);
-  /// From the queues of all.
+  /// The message has left all queues.
   void withdrawn(std::uint32_t index);
   void distributed(std::uint32_t index);
-  /// Frees the message's place once nobody can ask for it.
+  /// Frees the message's place once nothing needs it.
   void finish(std::uint32_t index);
 
   const StampedMessage& operator[](std::uint32_t index) const;
-  /// Places that are free hold messages without receivers, which nobody can take back.
+  /// All places; free ones hold messages without receivers that cannot be retracted.
   const std::vector<StampedMessage>& all() const { return messages_; }
 
  private:
-  /// What a federate has sent and may still take back, by its count.
+  /// A message that a federate has sent and may still retract, by its count.
   struct Sent {
     std::uint64_t number = 0;
     std::uint32_t message = 0;
@@ -88,7 +89,7 @@ class TimedMessages {
   struct Sender {
     std::uint64_t next_number = 0;
     std::vector<Sent> sent;
-    std::size_t bytes = 0;  ///< of what is in `sent`
+    std::size_t bytes = 0;  ///< of the messages in `sent`
     std::size_t compact_at = 64, compact_bytes_at = 1u << 20;
   };
   std::uint32_t take_place();

@@ -1,5 +1,4 @@
-// How many segments without data TCP would send back for what comes, where there is no TCP to count
-// them.
+// Counts the acknowledgements without data that TCP would send, for transports without TCP.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +17,7 @@ class DelayedAcknowledgements {
 
   /// A write of so many bytes has come, as many full segments as are in it and a rest.
   void received(std::size_t bytes, std::int64_t now_ns);
-  /// Something was sent the other way.
+  /// Data was sent in the other direction.
   void sent(std::int64_t now_ns);
   /// Acknowledgements without data until `now_ns`.
   std::uint64_t count(std::int64_t now_ns) const {

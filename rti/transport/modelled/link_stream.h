@@ -1,5 +1,5 @@
-// Random numbers of one property of one direction of one link: the same bits on every machine,
-// whatever else draws.
+// Random numbers for one property of one direction of one link: the same bits on every machine,
+// independent of other streams.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Which conditions hold where, and which numbers make no link.
+// Finds the conditions of a link, and checks their numbers.
 #include "rti/transport/modelled/network_conditions.h"
 
 namespace rink::rti {

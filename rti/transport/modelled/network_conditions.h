@@ -1,5 +1,5 @@
-// What a modelled network is like: of each link and direction delay, jitter, loss, reordering,
-// duplication and rate, and when which links are cut.
+// The conditions of a modelled network: delay, jitter, loss, reordering, duplication and rate of
+// each link and direction, and when links are cut.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace rink::rti {
 /// One direction of a link. The default is perfect: everything arrives at once.
 struct LinkConditions {
   std::int64_t latency_ns = 0;  ///< that every packet takes
-  std::int64_t jitter_ns = 0;  ///< mean of what it takes longer, exponentially distributed. Packets
-                               ///< keep their order: who would overtake waits
+  std::int64_t jitter_ns = 0;  ///< mean of the additional delay, exponentially distributed. Packets
+                               ///< keep their order: one that would overtake waits
   PacketLoss loss = PacketLoss::independent(0.0);
   double reorder =
       0.0;  ///< fraction of packets held for `held_ns` more, which those behind may overtake
@@ -34,14 +34,14 @@ struct LinkConditions {
   friend bool operator==(const LinkConditions&, const LinkConditions&) = default;
 };
 
-/// Links `first` to `last` of each listener are like this instead, a later one of these counts more
-/// than an earlier one.
+/// Other conditions for links `first` to `last` of each listener; a later exception overrides an
+/// earlier one.
 struct LinkException {
   std::uint32_t first = 0, last = 0;
   LinkConditions to_listener, from_listener;
 };
 
-/// What sets out on links `first` to `last` from `from_ns` on and before `until_ns` is lost, in one
+/// Packets sent on links `first` to `last` from `from_ns` on and before `until_ns` are lost, in one
 /// direction or, if none is named, in both.
 struct Partition {
   std::int64_t from_ns = 0, until_ns = 0;

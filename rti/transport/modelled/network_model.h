@@ -14,7 +14,7 @@ namespace rink::rti {
 /// of each.
 inline constexpr std::size_t segment_header = 52, datagram_header = 28, segment_max = 1448;
 
-/// What became of packets, over all links; a segment counts again each time it is sent.
+/// Counts of packets over all links; a segment counts again each time it is sent.
 struct NetworkCounters {
   std::uint64_t segments = 0, datagrams = 0;  ///< sent
   std::uint64_t lost = 0;                     ///< of both, to the chain of losses
@@ -71,11 +71,11 @@ class NetworkModel final : public LinkModel {
         retries;               ///< apart, so that one property's numbers do not depend on another's
     std::int64_t idle_ns = 0;  ///< when all that was sent has left
     std::uint64_t remainder = 0;  ///< of its last division [1/rate ns], so that no rounding adds up
-    std::int64_t last_datagram_ns = 0;  ///< nothing that keeps its order arrives before
-    std::int64_t back_ns = 0;           ///< what an acknowledgement takes
+    std::int64_t last_datagram_ns = 0;  ///< no datagram that keeps its order arrives before
+    std::int64_t back_ns = 0;           ///< delay of an acknowledgement
     std::int64_t smoothed_ns = 0, variation_ns = 0, timeout_ns = timeout_first_ns;  ///< RFC 6298
   };
-  /// When `bytes` that are handed over at `now_ns` have left; occupies the line until then.
+  /// The instant at which `bytes` given at `now_ns` have left; occupies the line until then.
   std::int64_t departure_ns(Line& line, std::int64_t now_ns, std::size_t bytes);
   std::int64_t service_ns(const Line& line, std::size_t bytes) const;
   bool is_lost(Line& line, std::int64_t departed_ns, bool is_retry);

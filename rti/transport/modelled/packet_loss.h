@@ -13,7 +13,7 @@ struct PacketLoss {
   double to_bad = 0.0, to_good = 1.0;      ///< probabilities of changing state
   double loss_good = 0.0, loss_bad = 1.0;  ///< of losing a packet in it
 
-  /// Bernoulli's: each packet is lost with probability `loss`, whatever became of the others.
+  /// Bernoulli's: each packet is lost with probability `loss`, independently of the others.
   static PacketLoss independent(double loss) { return {0.0, 1.0, loss, loss}; }
   /// Gilbert's: a fraction `loss` below 1 is lost in runs of `burst` packets in the mean, 1 or
   /// more. No chain does this if loss / (1 - loss) > burst.

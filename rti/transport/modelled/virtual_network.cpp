@@ -71,7 +71,7 @@ void VirtualNetwork::arrive(std::uint32_t parcel) {
     receiver->post(receiver->lines_[connection], take_parcel(), Kind::open);
 }
 
-/// What is on its way to `endpoint` arrives nowhere, and nobody sends there any more.
+/// Drops what is on its way to `endpoint`, and ends its lines.
 void VirtualNetwork::forget(const VirtualEndpoint* endpoint) {
   for (Parcel& parcel : parcels_)
     if (parcel.receiver == endpoint) parcel.receiver = nullptr;
@@ -151,7 +151,7 @@ void VirtualEndpoint::post(Line& line, std::uint32_t parcel, VirtualNetwork::Kin
   network_.dispatch(parcel, line.last_ns);
 }
 
-/// The peer hears nothing of it, as behind a cut cable.
+/// The peer is not notified, as with a cut cable.
 void VirtualEndpoint::give_up(Line& line, std::int64_t instant_ns) {
   line.is_given_up = true;
   const std::uint32_t parcel =
@@ -179,8 +179,7 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   assert(parcel.receiver == this && connection < lines_.size());
   Line& line = lines_[connection];
   const bool is_end = parcel.kind == Kind::close;
-  if (!line.is_open && !is_end)
-    return;  // what the peer said before is of no interest to one who closes
+  if (!line.is_open && !is_end) return;  // an end that closes does not read what came before
   if (parcel.kind == Kind::request || parcel.kind == Kind::open) {
     line.is_reported = true;
     return listener.on_open(connection);
@@ -188,7 +187,7 @@ void VirtualEndpoint::report(std::uint32_t number, TransportListener& listener) 
   if (is_end) {
     if (!line.is_open &&
         (parcel.reason == CloseReason::closed_by_peer || parcel.reason == CloseReason::failed))
-      return;  // we closed first and have been told
+      return;  // this end closed first and has been notified
     line.is_open = false;
     const std::string detail = parcel.detail;
     return listener.on_close(connection, parcel.reason, detail);

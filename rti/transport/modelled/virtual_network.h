@@ -19,16 +19,15 @@ namespace rink::rti {
 
 enum class LinkDirection : std::uint8_t { to_listener, from_listener };
 
-/// Which line this is, whatever else is connected: the `link`-th to connect to `listener`, from 0,
-/// and the direction.
+/// Identifies a line independently of other connections: the `link`-th to connect to `listener`,
+/// from 0, and the direction.
 struct LineIdentity {
   std::string_view listener;
   std::uint32_t link = 0;
   LinkDirection direction = LinkDirection::to_listener;
 };
 
-/// What becomes of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up
-/// then.
+/// The fate of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up then.
 struct Delivery {
   std::int64_t instant_ns = 0;
   bool is_given_up = false;
@@ -49,14 +48,14 @@ class DatagramArrivals {
   std::size_t count_ = 0;
 };
 
-/// Decides when what is sent arrives. Lines are reliable and ordered, as TCP's are, so whatever a
-/// model does to a packet shows as delay; datagrams show it as it is.
+/// Decides when sent bytes arrive. Lines are reliable and ordered, as TCP's are, so every effect on
+/// a packet shows as delay; datagrams can be lost, doubled and reordered.
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
   /// The instant [ns] at which `size` bytes sent at `now_ns` over `line` arrive, not before
   /// `now_ns`. Lines are numbered in order of connecting, each direction apart, so that a model may
-  /// keep a queue for each. The network delays further what would overtake.
+  /// keep a queue for each. The network delays writes that would overtake others.
   virtual std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) = 0;
 
   /// A new line, before anything is sent on it.
@@ -65,13 +64,13 @@ class LinkModel {
   virtual Delivery deliver(std::uint32_t line, std::int64_t now_ns, std::size_t size) {
     return {arrival_ns(line, now_ns, size), false};
   }
-  /// The same for a datagram, which may be lost, come twice and overtake others.
+  /// The arrivals of a datagram, which may be lost, come twice and overtake others.
   virtual DatagramArrivals datagram(std::uint32_t line, std::int64_t now_ns, std::size_t size) {
     DatagramArrivals arrivals;
     arrivals.add(arrival_ns(line, now_ns, size));
     return arrivals;
   }
-  /// What was sent on `line` and has not left the sender at `now_ns`.
+  /// Bytes sent on `line` that have not left the sender at `now_ns`.
   virtual std::size_t queued_bytes(std::uint32_t, std::int64_t) const { return 0; }
 };
 
@@ -94,9 +93,9 @@ class VirtualEndpoint;
 /// IPv4 and UDP.
 inline constexpr std::size_t virtual_datagram_max = 1472;
 
-/// The clock and the air between endpoints; must outlive them. A discrete-event queue ordered by
-/// (instant, order of sending). The clock stands still but in `advance_to`; whole nanoseconds, so
-/// that no sum of delays is ever rounded. One thread for all.
+/// The clock and the network between endpoints; must outlive them. A discrete-event queue ordered
+/// by (instant, order of sending). Only `advance_to` moves the clock, in whole nanoseconds, so that
+/// no sum of delays is ever rounded. All use one thread.
 class VirtualNetwork {
  public:
   /// The clock starts at `now_ns`; `model` must outlive the network. `queue_max` [bytes]: what may
@@ -114,7 +113,7 @@ class VirtualNetwork {
   /// Moves the clock to `until_ns`, not before now; what has arrived by then waits for its
   /// receiver's `poll`.
   void advance_to(std::int64_t until_ns);
-  /// From now on there is a way for datagrams beside the reliable lines.
+  /// Opens channels for datagrams beside the reliable lines.
   void carry_datagrams() { carries_datagrams_ = true; }
   /// How much has arrived since the beginning.
   std::uint64_t arrival_count() const { return arrived_; }
@@ -130,7 +129,7 @@ class VirtualNetwork {
     Kind kind = Kind::bytes;
     CloseReason reason = CloseReason::closed_by_peer;
     ConnectionId connection = 0;          ///< the receiver's number
-    VirtualEndpoint* receiver = nullptr;  ///< null if it is no more
+    VirtualEndpoint* receiver = nullptr;  ///< null if it no longer exists
     std::vector<std::byte> bytes;
     std::string detail;
   };
@@ -158,14 +157,14 @@ class VirtualNetwork {
   std::uint32_t next_line_ = 0;
   std::map<std::string, VirtualEndpoint*> listeners_;
   std::map<std::string, std::uint32_t>
-      link_counts_;  ///< by listener, also of one that is not there
+      link_counts_;  ///< by listener, also for names without a listener
   std::vector<Parcel> parcels_;
   std::vector<std::uint32_t> free_;
   std::vector<Arrival> arrivals_;  ///< a heap, earliest first
 };
 
-/// One end: a server's, or that of any number of clients. `poll` never waits: the clock is not its
-/// to move.
+/// One end: a server's, or that of any number of clients. `poll` never waits, since it may not move
+/// the clock.
 class VirtualEndpoint final : public Transport {
  public:
   explicit VirtualEndpoint(VirtualNetwork& network) : network_(network) {}
@@ -199,7 +198,7 @@ class VirtualEndpoint final : public Transport {
     VirtualEndpoint* peer = nullptr;
     ConnectionId peer_connection = 0;
     std::uint32_t number = 0;  ///< the model's
-    bool is_open = false;      ///< may send, and hears
+    bool is_open = false;      ///< may send and receive
     bool is_reported = false;  ///< `on_open` was called: datagrams may be sent, and those that came
                                ///< before are lost
     bool is_given_up = false;  ///< nothing gets through: closed once the sender has noticed
@@ -208,7 +207,7 @@ class VirtualEndpoint final : public Transport {
     DelayedAcknowledgements acknowledgements;
   };
   ConnectionId add_line(VirtualEndpoint* peer, const LineIdentity& identity);
-  /// A parcel that tells this end why `connection` is no more; not yet on its way.
+  /// A parcel that reports to this end why `connection` has closed; not yet on its way.
   std::uint32_t closing(ConnectionId connection, CloseReason reason);
   void post(Line& line, std::uint32_t parcel, VirtualNetwork::Kind kind);
   void give_up(Line& line, std::int64_t instant_ns);

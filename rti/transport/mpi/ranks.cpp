@@ -1,4 +1,4 @@
-// Ranks in MPI's words. Everything is begun and tested, never waited for, so that one who is silent
+// Implements ranks by MPI. Operations are begun and tested, never waited for, so that a silent rank
 // can be noticed.
 #include "rti/transport/mpi/ranks.h"
 

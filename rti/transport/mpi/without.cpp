@@ -1,4 +1,4 @@
-// Ranks of a build that was configured without MPI: none, and words that say what to install.
+// Ranks of a build that was configured without MPI: an error that names what to install.
 #include "rti/transport/mpi/ranks.h"
 #include "rti/transport/transport.h"
 

@@ -1,4 +1,4 @@
-// Rings between processes: how they are handed over, looked at and given up.
+// Sets up rings between processes, and closes them.
 #include "rti/transport/shared_memory/shared_memory.h"
 
 #include <fcntl.h>
@@ -25,7 +25,7 @@ constexpr std::uint32_t memory_magic = 0x4d534b52;  ///< "RKSM"
 constexpr std::uint32_t memory_version = 1;
 constexpr std::size_t ring_min = 4096, ring_max = 1u << 30, head_size = 4096;
 
-/// What the server says when it hands over the memory.
+/// The server's message with which it passes the memory.
 struct Greeting {
   std::uint32_t magic = memory_magic, version = memory_version;
   std::uint64_t ring_size = 0;
@@ -33,7 +33,7 @@ struct Greeting {
 
 std::size_t segment_size(std::size_t ring_size) { return head_size + 2 * ring_size; }
 
-/// An abstract name: it is gone with its socket.
+/// An abstract name, which vanishes with its socket.
 std::pair<sockaddr_un, socklen_t> address_of(const std::string& name) {
   sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
   const std::string whole = "rink/" + name.substr(0, 90);
@@ -53,7 +53,7 @@ bool is_same_user(int socket) {
          peer.uid == ::geteuid();
 }
 
-/// False for a file that knows no seals.
+/// False for a file that cannot have seals.
 bool is_sealed(int file) {
   const int seals = ::fcntl(file, F_GET_SEALS);
   return seals >= 0 && (seals & F_SEAL_SHRINK) != 0;
@@ -74,7 +74,9 @@ SharedMemoryTransport::SharedMemoryTransport(const SharedMemorySettings& setting
     : settings_(settings) {
   assert(std::has_single_bit(settings.ring_size) && settings.ring_size >= ring_min &&
          settings.ring_size <= ring_max);
-  if (std::thread::hardware_concurrency() < 2) settings_.spin = {};  // who would write meanwhile?
+  if (std::thread::hardware_concurrency() < 2)
+    settings_.spin = {};  // no other process could write
+                          // meanwhile
 }
 
 void SharedMemoryTransport::listen(const std::string& name) {
@@ -107,7 +109,7 @@ ConnectionId SharedMemoryTransport::connect(const std::string& name) {
   } else if (!is_same_user(peer.socket.number())) {
     end(connection, CloseReason::refused,
         "shared-memory address '" + name +
-            "' is another user's");  // anybody may take an abstract name
+            "' is another user's");  // any user may take an abstract name
   } else {
     readiness_.watch(peer.socket.number(), connection, false);
   }
@@ -132,12 +134,12 @@ void SharedMemoryTransport::accept(std::size_t listening) {
     const ConnectionId connection = add(std::move(file));
     if (offer_memory(connection))
       readiness_.watch(peers_[connection]->socket.number(), connection, false);
-    else peers_[connection].reset();  // never open, so nobody is told
+    else peers_[connection].reset();  // never open, so not reported
   }
 }
 
-/// Out of files: the one kept for this lets whoever waits in and out again. Otherwise its waiting
-/// would wake us at once and for ever.
+/// Out of files: the spare one is used to accept the waiting connection and close it, which would
+/// otherwise wake every poll at once.
 bool SharedMemoryTransport::turn_away(std::size_t listening) {
   if (!spare_) return false;
   spare_.close();
@@ -237,7 +239,7 @@ void SharedMemoryTransport::opened(ConnectionId connection, Mapping memory, std:
 
 void SharedMemoryTransport::end(ConnectionId connection, CloseReason reason,
                                 const std::string& detail) {
-  assert(find(connection) != nullptr);  // its end is told once
+  assert(find(connection) != nullptr);  // its end is reported once
   peers_[connection].reset();
   std::erase(open_, connection);
   news_.push_back({connection, reason, detail});
@@ -249,7 +251,7 @@ void SharedMemoryTransport::close(ConnectionId connection) {
   if (find(connection) != nullptr) end(connection, CloseReason::closed_by_us, "closed by us");
 }
 
-/// To a few milliseconds, for a fifth of what the exact time costs in each round trip.
+/// Exact to a few milliseconds, at a fifth of the cost of the exact time in each round trip.
 std::int64_t SharedMemoryTransport::now_ns() {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC_COARSE, &now);

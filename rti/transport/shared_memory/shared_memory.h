@@ -22,8 +22,8 @@ struct SharedMemorySettings {
                                        ///< [bytes]; untouched pages cost nothing
   std::size_t queue_max =
       1u << 20;  ///< queued for a peer whose ring is full, before it is closed [bytes]
-  std::chrono::nanoseconds spin{20'000};  ///< that a poll looks at the rings before it sleeps; none
-                                          ///< where there is one processor only
+  std::chrono::nanoseconds spin{20'000};  ///< for which a poll looks at the rings before it sleeps;
+                                          ///< 0 on one processor
 };
 
 /// A mapping that ends with its owner.
@@ -49,18 +49,18 @@ class Mapping {
   std::size_t size_ = 0;
 };
 
-/// Connections are made over a Unix-domain socket of an abstract name, by which the server hands
-/// each client its memory; the socket then wakes who sleeps, and its end tells that the peer is
-/// gone, however it went. Nothing has a name in a file system, so nothing is left behind. Only
-/// processes of the same user are let in. A poll looks at every connection's ring: made for tens or
-/// hundreds of federates, not for ten thousand.
+/// Connections are made over a Unix-domain socket of an abstract name, by which the server passes
+/// each client its memory; the socket then wakes a sleeping end, and its close shows that the peer
+/// is gone, also after a crash. Nothing has a name in a file system, so nothing is left behind.
+/// Only processes of the same user may connect. A poll looks at every connection's ring: this suits
+/// hundreds of federates, not ten thousand.
 class SharedMemoryTransport final : public Transport {
  public:
   explicit SharedMemoryTransport(const SharedMemorySettings& settings = {});
   SharedMemoryTransport(const SharedMemoryTransport&) = delete;
   SharedMemoryTransport& operator=(const SharedMemoryTransport&) = delete;
 
-  /// At most 90 bytes. Throws TransportError: in_use, too_many_files or failed.
+  /// `name` has at most 90 bytes. Throws TransportError: in_use, too_many_files or failed.
   void listen(const std::string& name);
   /// `on_open` or `on_close` (refused, failed) follows in a poll.
   ConnectionId connect(const std::string& name);
@@ -74,7 +74,7 @@ class SharedMemoryTransport final : public Transport {
   TransportCounters counters(ConnectionId connection) const override;
   /// Sum over all connections that ever were.
   TransportCounters totals() const;
-  /// How often a poll slept, and woke a sleeper; each is a system call.
+  /// How often this end slept, and woke a sleeping peer; each is a system call.
   std::uint64_t sleeps() const { return sleeps_; }
   std::uint64_t wakes() const { return wakes_; }
 
@@ -118,7 +118,7 @@ class SharedMemoryTransport final : public Transport {
   SharedMemorySettings settings_;
   Readiness readiness_;
   std::vector<File> listening_;
-  File spare_;                                ///< a server's, for when there are no more files
+  File spare_;                                ///< a server's, for use when there are no more files
   std::vector<std::unique_ptr<Peer>> peers_;  ///< by connection; null once closed
   std::vector<ConnectionId> open_;            ///< those with rings
   std::vector<TransportCounters> counters_;   ///< by connection

@@ -1,4 +1,4 @@
-// Bytes in and out of the rings, and when a poll looks, sleeps and wakes.
+// Moves bytes in and out of the rings; a poll looks, sleeps and wakes.
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace rink::rti {
 namespace {
 
 constexpr std::uint32_t polls_per_look =
-    4;  ///< between two looks at the sockets while there is something in the rings
+    4;  ///< polls between two looks at the sockets while the rings are busy
 constexpr const char* impossible = "its positions in shared memory are impossible";
 
 }  // namespace
@@ -22,7 +22,8 @@ void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
                                  TransportListener& listener) {
   listener_ = &listener;
   const std::uint64_t before = callbacks_;
-  // A busy connection costs no system call; who comes and goes is noticed all the same.
+  // A busy connection costs no system call; connections that open or close are noticed all the
+  // same.
   if (open_.empty() || ++polls_ % polls_per_look == 0) handle_events();
   report();
   look_at_rings();
@@ -32,7 +33,7 @@ void SharedMemoryTransport::poll(std::chrono::nanoseconds longest_wait,
 }
 
 void SharedMemoryTransport::spin_and_sleep(std::chrono::nanoseconds longest_wait) {
-  // Told in looks instead of time: a look costs about 10 ns for each connection.
+  // The time is counted in looks: a look costs about 10 ns for each connection.
   const std::int64_t looks =
       settings_.spin.count() / static_cast<std::int64_t>(10 * (open_.size() + 1));
   for (std::int64_t i = 0; i < looks && !has_something(); ++i) {
@@ -42,7 +43,8 @@ void SharedMemoryTransport::spin_and_sleep(std::chrono::nanoseconds longest_wait
   }
   if (!has_something()) {
     for (const ConnectionId connection : open_) peers_[connection]->in.set_sleeping(true);
-    // Whoever writes from now on sees that we sleep; whoever wrote before is seen by this look.
+    // A peer that writes from now on sees that this end sleeps; what was written before is seen by
+    // this look.
     if (!has_something()) {
       ++sleeps_;
       readiness_.ask(longest_wait, {});
@@ -80,7 +82,7 @@ void SharedMemoryTransport::handle_socket(ConnectionId connection) {
   const ssize_t size =
       ::recv(peer->socket.number(), wakes_of_peer.data(), wakes_of_peer.size(), MSG_DONTWAIT);
   if (size > 0 || (size < 0 && (errno == EAGAIN || errno == EINTR))) return;
-  report();                                 // that it opened, if it came and went since
+  report();                                 // that it opened, if it opened and closed since
   if (find(connection) == nullptr) return;  // a callback closed it
   read(connection);
   if (find(connection) != nullptr) end(connection, CloseReason::closed_by_peer, "closed by peer");
@@ -129,7 +131,7 @@ void SharedMemoryTransport::wake(const Peer& peer) {
       ::send(peer.socket.number(), &anything, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
-/// Puts what fits and returns how much that was.
+/// Writes what fits and returns how much that was.
 std::size_t SharedMemoryTransport::put(ConnectionId connection, Bytes bytes) {
   assert(find(connection) != nullptr && find(connection)->is_open);
   Peer& peer = *peers_[connection];

@@ -1,5 +1,5 @@
-// A ring of bytes in memory that two processes share, one writing and one reading, neither
-// believing the other.
+// A ring of bytes in memory that two processes share, one writing and one reading, neither trusting
+// the other.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct SharedRingState {
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && sizeof(SharedRingState) == 192,
               "two processes must agree on it");
 
-/// One end of a ring. Own positions are kept here and never read back, so that the worst that a
-/// hostile peer does is to be recognised.
+/// One end of a ring. Own positions are kept here and never read back, so that a hostile peer can
+/// do no more than be recognised.
 class SharedRing {
  public:
   SharedRing() = default;
@@ -38,7 +38,7 @@ class SharedRing {
     assert(state != nullptr && bytes != nullptr && std::has_single_bit(capacity));
   }
 
-  /// Of the writer: bytes that fit now, or nothing if the reader's position is impossible.
+  /// For the writer: bytes that fit now, or nothing if the reader's position is impossible.
   std::optional<std::size_t> room() const {
     const std::uint64_t used = position_ - state_->read.load(std::memory_order_acquire);
     return used <= capacity_ ? std::optional(capacity_ - static_cast<std::size_t>(used))
@@ -60,13 +60,13 @@ class SharedRing {
            state_->reader_sleeps.exchange(0) != 0;
   }
 
-  /// Of the reader: bytes that wait, or nothing if the writer's position is impossible.
+  /// For the reader: bytes that wait, or nothing if the writer's position is impossible.
   std::optional<std::size_t> waiting() const {
     const std::uint64_t waiting = state_->written.load(std::memory_order_seq_cst) - position_;
     return waiting <= capacity_ ? std::optional(static_cast<std::size_t>(waiting)) : std::nullopt;
   }
-  /// Copies so many of the bytes that wait, for what lies in the ring may change while it is looked
-  /// at. True if the writer must be woken.
+  /// Copies `size` of the waiting bytes, since bytes in the ring may change while they are read.
+  /// True if the writer must be woken.
   bool take(std::byte* to, std::size_t size) {
     assert(size <= capacity_);
     const std::size_t at = place(), first = std::min(size, capacity_ - at);

@@ -1,4 +1,4 @@
-// Strangers and what becomes of them.
+// Closes connections that do not prove themselves.
 #include "rti/transport/staged/guard.h"
 
 #include <algorithm>
@@ -98,14 +98,15 @@ void Guard::poll(std::chrono::nanoseconds longest_wait, TransportListener& liste
       if (each->is_open && now - each->since > settings_.patience_s) refuse(*each);
     longest_wait = std::min<std::chrono::nanoseconds>(
         longest_wait,
-        std::chrono::milliseconds(100));  // or a silent stranger would outstay a long wait
+        std::chrono::milliseconds(100));  // or a silent connection would last as long as a long
+                                          // wait
   }
   TransportStage::poll(longest_wait, listener);
 }
 
 void Guard::send(ConnectionId connection, std::span<const Bytes> parts) {
   if (is_known(connection)) return TransportStage::send(connection, parts);
-  if (settings_.role == Role::rti) return;  // nobody knows it
+  if (settings_.role == Role::rti) return;  // its user does not know it
   Stranger& stranger = meet(connection);
   for (const Bytes part : parts)
     stranger.pending.insert(stranger.pending.end(), part.begin(), part.end());

@@ -1,5 +1,5 @@
-// Lets nobody through to the RTI, or to a federate, who has not proven that they have the shared
-// key.
+// Admits only connections to the RTI, or to a federate, whose other end has proven that it has the
+// shared key.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@ struct GuardSettings {
   Role role = Role::rti;  ///< of this end
   std::string federation = "rink";
   double patience_s =
-      3.0;  ///< for a stranger to prove itself; it costs a file and less than 2 kB meanwhile
+      3.0;  ///< for a peer to prove itself; it costs a file and less than 2 kB meanwhile
 };
 
-/// Holds a handshake on each connection (rti/admission/handshake.h). The user hears of a connection
-/// once both ends have proven themselves; a stranger who doesn't is closed, is never heard of at
-/// the RTI's end, and closes with `failed` and a reason at the federate's. Afterwards bytes pass as
-/// they are, and datagrams too. What a federate sends before the proof waits for it.
+/// Holds a handshake on each connection (rti/admission/handshake.h). The connection opens for the
+/// user once both ends have proven themselves. One that does not is closed, unnoticed by the user
+/// at the RTI's end, with `failed` and a reason at the federate's. Afterwards bytes and datagrams
+/// pass unchanged. Bytes that a federate sends before the proof wait for it.
 class Guard final : public TransportStage {
  public:
   Guard(const SharedKey& key, GuardSettings settings, Clock now_s);
@@ -35,7 +35,7 @@ class Guard final : public TransportStage {
     if (is_known(connection)) TransportStage::send_datagrams(connection, datagrams);
   }
 
-  /// Strangers closed so far.
+  /// Unproven connections closed so far.
   std::uint64_t refused() const { return refused_; }
 
  private:
@@ -50,7 +50,7 @@ class Guard final : public TransportStage {
     ConnectionId connection;
     double since;
     Handshake handshake;
-    std::vector<std::byte> pending;  ///< to be sent to it once it is none
+    std::vector<std::byte> pending;  ///< to be sent to it once it is proven
     bool is_open = false, is_refused = false;
   };
   bool is_known(ConnectionId connection) const {

@@ -13,11 +13,11 @@ namespace rink::rti {
 struct RateLimiter::Meter {
   TokenBucket bytes, frames;
   std::byte header[frame_header_size] = {};
-  std::size_t header_size = 0;  ///< of it heard
-  std::size_t body_left = 0;    ///< of the frame at hand
+  std::size_t header_size = 0;  ///< bytes of it received
+  std::size_t body_left = 0;    ///< of the present frame
   bool is_closing = false;
 
-  /// Frames whose header ends in `stream`.
+  /// Counts the frames whose header ends in `stream`.
   int count_frames(Bytes stream) {
     int count = 0;
     while (!stream.empty()) {
@@ -59,7 +59,7 @@ void RateLimiter::on_close(ConnectionId connection, CloseReason reason, const st
   else TransportStage::on_close(connection, reason, detail);
 }
 
-/// Closes who exceeds the limit.
+/// Closes a connection that exceeds the limit.
 bool RateLimiter::allows(ConnectionId connection, Bytes bytes, bool is_datagram) {
   Meter* meter = connection < meters_.size() ? meters_[connection].get() : nullptr;
   if (meter == nullptr || meter->is_closing) return false;

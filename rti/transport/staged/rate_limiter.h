@@ -1,4 +1,4 @@
-// Closes whoever sends faster than allowed.
+// Closes connections that send faster than allowed.
 #pragma once
 
 #include <memory>
@@ -9,16 +9,16 @@
 
 namespace rink::rti {
 
-/// Of each connection, counted as it arrives, a datagram as a frame; 0: as much as it likes. A
+/// The limit of each connection, counted as bytes arrive, a datagram as a frame; 0 is unlimited. A
 /// second's worth may come at once.
 struct RateLimit {
   double bytes_per_s = 0.0;
   double frames_per_s = 0.0;  ///< a federate sends one with each of its flushes (docs/wire.md)
-  std::vector<std::byte> last_words{};  ///< sent to whoever exceeds it before its connection closes
+  std::vector<std::byte> last_words{};  ///< sent to a connection that exceeds it before that closes
 };
 
-/// Holds each connection to a limit. Who exceeds it is closed, and its end reported with
-/// `too_fast`; what it sent too much is not passed on.
+/// Holds each connection to a limit. One that exceeds it is closed, its end reported with
+/// `too_fast`, and the excess is dropped.
 class RateLimiter final : public TransportStage {
  public:
   RateLimiter(const RateLimit& limit, Clock now_s);

@@ -12,9 +12,9 @@
 
 namespace rink::rti {
 
-/// One step between a transport, which is below, and its user, who is above. Here everything
-/// passes: what is called goes down, what is told goes up. A stage overrides what it changes, and
-/// passes on by the function of this class.
+/// One step between a transport, which is below, and its user, which is above. This class passes
+/// calls down and events up unchanged. A stage overrides what it changes, and passes on by the
+/// function of this class.
 class TransportStage : public Transport, protected TransportListener {
  public:
   using Clock = std::function<double()>;  ///< [s], never decreases
@@ -48,7 +48,7 @@ class TransportStage : public Transport, protected TransportListener {
  protected:
   TransportStage() = default;
 
-  // Only while it is polled.
+  // These are called only while the stage is polled.
   void on_open(ConnectionId connection) override {
     assert(above_ != nullptr);
     above_->on_open(connection);
@@ -63,8 +63,8 @@ class TransportStage : public Transport, protected TransportListener {
     above_->on_datagram(connection, datagram);
   }
 
-  /// For a stage that changes nothing of what arrives: the listener hears the transport below, and
-  /// it hears nothing.
+  /// For a stage that does not change what arrives: events of the transport below go straight to
+  /// the listener.
   void poll_unnotified(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
     below_->poll(longest_wait, listener);
   }
@@ -81,8 +81,8 @@ class StagedTransport final : public TransportStage {
   /// `inner` must outlive it, and is polled by it alone.
   explicit StagedTransport(Transport& inner) { below_ = &inner; }
 
-  /// Puts a stage, made of the arguments, above those that are there. Before anything was sent or
-  /// polled.
+  /// Makes a stage of the arguments and puts it above the existing ones. Call it before anything is
+  /// sent or polled.
   template <class Stage, class... Arguments>
   Stage& add(Arguments&&... arguments) {
     auto stage = std::make_unique<Stage>(std::forward<Arguments>(arguments)...);

@@ -1,4 +1,4 @@
-// Spreads the writes of a tick over a part of it, and tells how dense they were.
+// Spreads the writes of a tick over a part of it, and measures how dense they were.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace rink::rti {
 
-/// Lets each connection's bytes go at a phase of its own: what is sent at once leaves in
-/// `slot_count` groups over `window_s`, in order within each connection. A burst of a tick's writes
-/// fills the queues of switches and receivers and keeps the sender from hearing its clients; the
-/// price is a copy of each write, and up to the window of latency, always the same for a
-/// connection. Datagrams are not held.
+/// Sends each connection's bytes at a phase of its own: writes of one instant leave in `slot_count`
+/// groups over `window_s`, in order within each connection. A burst of a tick's writes fills the
+/// queues of switches and receivers and keeps the sender from reading; the price is a copy of each
+/// write, and up to the window of latency, always the same for a connection. Datagrams are not
+/// delayed.
 class Stagger final : public TransportStage {
  public:
   static constexpr std::size_t slot_count = 16;
   static constexpr double burst_s = 1e-3;
 
-  /// With a window of 0 everything goes at once, and is only measured.
+  /// With a window of 0 everything is sent at once, and only measured.
   Stagger(double window_s, Clock now_s) : window_s_(window_s), now_s_(std::move(now_s)) {}
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
@@ -30,17 +30,16 @@ class Stagger final : public TransportStage {
     return TransportStage::queued_bytes(connection) +
            (connection < waiting_.size() ? waiting_[connection].size() : 0);
   }
-  /// Writes are those asked for; fewer leave where one waits for its phase and more is sent
-  /// meanwhile.
+  /// Counts the writes of the user; fewer leave where a waiting write takes up later ones.
   TransportCounters counters(ConnectionId connection) const override;
   void push() override;
 
   /// Starts to measure anew.
   void forget_bursts() { burst_bytes_ = burst_bytes_max_ = 0; }
-  /// The most bytes that were given to what is below within a millisecond; milliseconds follow each
-  /// other from the first write after a pause.
+  /// The most bytes that were passed down within a millisecond; milliseconds follow each other from
+  /// the first write after a pause.
   std::size_t burst_bytes_max() const { return burst_bytes_max_; }
-  /// Asserts that who waits does so in its own slot, and that slots are counted.
+  /// Asserts that each connection waits in its own slot, and that slots are counted.
   void check() const;
 
  private:
@@ -55,9 +54,9 @@ class Stagger final : public TransportStage {
   Clock now_s_;
   std::vector<std::vector<std::byte>> waiting_;  ///< by connection
   std::vector<std::uint64_t> joined_writes_;  ///< by connection: writes that went with one before
-  std::array<std::vector<ConnectionId>, slot_count> slots_;  ///< who waits for it
-  std::size_t slots_taken_ = 0;                              ///< with somebody in it
-  double begun_s_ = 0.0;  ///< when the first of those who wait was sent
+  std::array<std::vector<ConnectionId>, slot_count> slots_;  ///< connections that wait for it
+  std::size_t slots_taken_ = 0;                              ///< slots with connections in them
+  double begun_s_ = 0.0;  ///< when the first of the waiting writes was given
   double burst_begun_s_ = -1.0;
   std::size_t burst_bytes_ = 0, burst_bytes_max_ = 0;
 };

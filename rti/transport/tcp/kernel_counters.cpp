@@ -1,4 +1,4 @@
-// Asks Linux by TCP_INFO.
+// Reads the kernel's counters by TCP_INFO.
 #include "rti/transport/tcp/kernel_counters.h"
 
 #include <linux/tcp.h>

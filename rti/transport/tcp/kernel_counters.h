@@ -18,7 +18,7 @@ struct KernelCounters {
           0;  ///< those with payload; all others are acknowledgements, but for the handshakes
 };
 
-/// `TCP_INFO` of an open TCP socket; nothing if the kernel doesn't say.
+/// `TCP_INFO` of an open TCP socket; nothing if the kernel does not support it.
 std::optional<KernelCounters> kernel_counters(int socket);
 
 }  // namespace rink::rti

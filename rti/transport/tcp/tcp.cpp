@@ -1,4 +1,4 @@
-// TCP connections: how they come about, wait and end.
+// Opens, polls and closes TCP connections.
 #include "rti/transport/tcp/tcp.h"
 
 #include <netinet/in.h>
@@ -22,8 +22,8 @@ namespace {
 constexpr std::size_t events_per_poll =
     4096;  ///< connections opened, closed or read in one poll, more where many are accepted
 constexpr std::size_t accepted_per_event = 64;
-/// What the kernel keeps of a peer's bytes beyond those on their way [bytes]. Its own limit grows
-/// to megabytes for one who doesn't read, where nobody can put newer state in their place.
+/// Limit of a peer's unsent bytes in the kernel [bytes]. Its own limit grows to megabytes for a
+/// peer that does not read, where newer state can no longer replace them.
 constexpr int unsent_max = 256 * 1024;
 constexpr std::uint64_t pause_mark = ~0ull;
 constexpr std::size_t counters_kept = 1024;  ///< of closed connections
@@ -114,7 +114,7 @@ ConnectionId TcpTransport::connect(const std::string& address, std::uint16_t por
         ::connect(peer.file.number(), endpoint.data(), static_cast<socklen_t>(endpoint.size()));
   while (result < 0 && errno == EINTR);
   const asio::error_code error = last_error();
-  // Watched only from here on: a socket that nobody has connected yet would be told as ended.
+  // The socket is watched only from here on: an unconnected one would be reported as ended.
   if (result < 0 && error.value() != EINPROGRESS && error.value() != EISCONN &&
       error.value() != EALREADY)
     end(peer, reason_of(error.value()), "can't connect to " + peer.place + ": " + error.message());
@@ -134,7 +134,7 @@ void TcpTransport::accept(std::size_t listening) {
     File file(
         ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!file && (errno == EMFILE || errno == ENFILE)) return accept_later();
-    if (!file) return;  // none is left, or one that gave up before we came
+    if (!file) return;  // none is left, or the peer gave up before the accept
     Peer& peer = add(std::move(file));
     readiness_.watch(peer.file.number(), peer.id, false);
     opened(peer);
@@ -142,8 +142,8 @@ void TcpTransport::accept(std::size_t listening) {
 }
 
 void TcpTransport::accept_later() {
-  // The waiting connection would wake us at once and for ever: raise the limit, or let somebody
-  // leave first.
+  // The waiting connection would wake every poll at once: raise the limit, or pause until another
+  // connection closes.
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
     limit.rlim_cur = limit.rlim_max;
@@ -225,18 +225,18 @@ void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener
     listener_ = nullptr;
     return;
   }
-  // One question per poll: each system call here is one more in every round trip. What comes while
-  // we handle what had come is the next poll's.
+  // The kernel is asked once per poll, since each system call here is one more in every round trip.
+  // Events that come meanwhile are the next poll's.
   readiness_.ask(ended_.is_empty() ? longest_wait : std::chrono::nanoseconds(0), settings_.spin);
   receive_pending();
   listener_ = nullptr;
 }
 
-/// Who spins with one connection asks that, not the kernel's list of what is ready: one system call
-/// less in every round trip. True if there is no more to ask.
+/// A poll that spins with one connection reads that without asking which files are ready: one
+/// system call less in every round trip. True if the poll is done.
 bool TcpTransport::read_only_peer(std::chrono::nanoseconds longest_wait) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::uint32_t reads_per_look = 32;  // so that who comes besides is let in
+  constexpr std::uint32_t reads_per_look = 32;  // so that new connections are accepted
   const auto spin = std::min(settings_.spin, longest_wait);
   if (open_count_ != 1 || !ended_.is_empty() || readiness_.has_left() ||
       (longest_wait.count() > 0 && spin.count() <= 0))
@@ -254,9 +254,9 @@ bool TcpTransport::read_only_peer(std::chrono::nanoseconds longest_wait) {
 }
 
 void TcpTransport::receive_pending() {
-  // A peer that sends without pause must not keep us from returning: a joined one at 250 MB/s cost
-  // a server three ticks in four. What is left waits in the kernel, and the next poll begins with
-  // the peers that this one did not reach.
+  // A peer that sends without pause must not keep a poll from returning: a joined one at 250 MB/s
+  // cost a server three ticks in four. What is left waits in the kernel, and the next poll begins
+  // with the peers that this one did not reach.
   const std::uint64_t before = bytes_taken_;
   for (std::size_t taken = 0;
        taken < events_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken) {

@@ -22,8 +22,8 @@ struct TcpSettings {
   std::size_t bytes_per_poll =
       1u
       << 20;  ///< received from all together before a poll returns, give or take a buffer [bytes]
-  /// How long a poll that may wait asks again and again before it sleeps: no wake-up, which is most
-  /// of a round trip, but a core that nobody else gets meanwhile.
+  /// How long a poll that may wait asks again and again before it sleeps: this saves the wake-up,
+  /// which is most of a round trip, but occupies a core.
   std::chrono::nanoseconds spin{0};
 };
 
@@ -48,12 +48,12 @@ class TcpTransport final : public Transport {
   void close(ConnectionId connection) override;
   std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
-  /// Sum over all connections that ever were; where the kernel was not asked or could not tell, our
-  /// own count stands in for its.
+  /// Sum over all connections that ever were; where the kernel's counts are not known, the own ones
+  /// stand in for them.
   TransportCounters totals() const;
 
-  /// For a transport on top of this one: a file that can be read when a poll has something to tell,
-  /// and that of an open connection's socket, -1 for others.
+  /// For a transport on top of this one: a file that can be read when a poll has something to
+  /// report, and that of an open connection's socket, -1 for others.
   int wait_file() const { return readiness_.file(); }
   int file(ConnectionId connection) const;
 
@@ -62,7 +62,7 @@ class TcpTransport final : public Transport {
     explicit Peer(ConnectionId id) : id(id) {}
     File file;
     ConnectionId id;
-    std::string place;             ///< whom we connect to
+    std::string place;             ///< the address to connect to
     bool is_open = false;          ///< connected; may be sent to
     bool is_leaving = false;       ///< its end is in `ended_`, waiting to be reported
     bool is_writing = false;       ///< waits for room in the kernel's buffer
@@ -75,7 +75,7 @@ class TcpTransport final : public Transport {
     CloseReason reason;
     std::string detail;
   };
-  /// What an error of the operating system, a value of errno, says of the peer.
+  /// The reason to close that an error of the operating system, a value of errno, stands for.
   static CloseReason reason_of(int error);
   Peer* find(ConnectionId connection) const {
     return connection < peers_.size() ? peers_[connection].get() : nullptr;
@@ -111,7 +111,7 @@ class TcpTransport final : public Transport {
   TransportListener* listener_ = nullptr;  ///< while polling
   std::size_t open_count_ = 0;
   ConnectionId newest_open_ = 0;
-  std::uint32_t reads_ = 0;        ///< of an only peer, without being told that there is something
+  std::uint32_t reads_ = 0;        ///< reads of an only peer without asking whether it is ready
   std::uint64_t bytes_taken_ = 0;  ///< received by all connections
 };
 

@@ -1,5 +1,5 @@
-// Bytes in and out of a TCP peer: one gathered write per send, a bounded queue for what the kernel
-// doesn't take.
+// Moves bytes in and out of a TCP peer: one gathered write per send, a bounded queue for what the
+// kernel does not take.
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -114,8 +114,8 @@ void TcpTransport::drain(Peer& peer) {
   peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);
   if (is_broken) return end(peer, CloseReason::closed_by_peer, "closed by peer");
   if (peer.queue_from < peer.queue.size()) {
-    // What has gone is cut off now and then, so that a slow but steady reader doesn't make the
-    // queue's memory grow.
+    // Bytes that were sent are cut off now and then, so that a slow but steady reader does not make
+    // the queue's memory grow.
     if (peer.queue_from > settings_.queue_max / 2) {
       peer.queue.erase(peer.queue.begin(),
                        peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
@@ -143,10 +143,11 @@ void TcpTransport::close(ConnectionId connection) {
     write(*peer, std::span(&waiting, 1), is_broken);
   }
   if (peer->is_open) {
-    // Unread input would turn our close into a reset, which may overtake the last bytes that we
+    // Unread input would turn the close into a reset, which may overtake the last bytes that were
     // sent.
     ::shutdown(peer->file.number(), SHUT_WR);
-    // No more than had room in the kernel: who sends without pause must not keep us here.
+    // Reads no more than the kernel could hold, so that a peer that sends without pause cannot keep
+    // this loop running.
     int waiting = 0;
     ::ioctl(peer->file.number(), FIONREAD, &waiting);
     for (ssize_t size = 1; size > 0 && waiting > 0; waiting -= static_cast<int>(size))

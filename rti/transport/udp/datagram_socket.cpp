@@ -1,4 +1,4 @@
-// sendmmsg, recvmmsg, UDP_SEGMENT and UDP_GRO.
+// Implements datagram sockets by sendmmsg, recvmmsg, UDP_SEGMENT and UDP_GRO.
 #include "rti/transport/udp/datagram_socket.h"
 
 #include <netinet/in.h>
@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstring>
 
-// Younger than some C libraries' headers; a kernel without them refuses, and we do without.
+// Newer than some C libraries' headers; a kernel without them refuses, and they are not used.
 #ifndef UDP_SEGMENT
 #define UDP_SEGMENT 103
 #endif
@@ -103,7 +103,7 @@ void DatagramSender::add(int socket, const SocketAddress* to, Bytes prefix,
   }
 }
 
-/// Continues the last part if it lies behind it.
+/// Continues the last part if it follows that in memory.
 void DatagramSender::append(Message& message, Bytes part, bool does_stay) {
   if (part.empty()) return;
   const std::byte* at = part.data();
@@ -163,8 +163,7 @@ std::size_t DatagramSender::send_some(std::size_t from) {
                               MSG_DONTWAIT | MSG_NOSIGNAL);
   if (sent > 0) return static_cast<std::size_t>(sent);
   const Message& refused = messages_[from];
-  if (errno == EINTR ||
-      errno == ECONNREFUSED) {  // the second is news of an earlier datagram, told once
+  if (errno == EINTR || errno == ECONNREFUSED) {  // the second reports an earlier datagram, once
     if (::sendmmsg(socket_, headers.data(), 1, MSG_DONTWAIT | MSG_NOSIGNAL) <= 0)
       lost_ += refused.count;
     return 1;

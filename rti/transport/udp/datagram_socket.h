@@ -27,12 +27,13 @@ struct SocketAddress {
   void set_port(std::uint16_t port);
 };
 
-/// A large buffer for bursts, and `UDP_GRO` if it is there and wanted.
+/// Sets a large buffer for bursts, and `UDP_GRO` if it is available and wanted.
 void prepare_datagram_socket(int socket, bool use_offload);
 
 /// Gathers datagrams and sends them by `sendmmsg`; consecutive ones of one size (the last may be
 /// shorter) to one address as one message that the kernel cuts (`UDP_SEGMENT`), unless the kernel
-/// has refused that once. Bodies that stay are not copied. What the kernel has no room for is lost.
+/// has refused that once. Bodies that stay are not copied. Datagrams that the kernel has no room
+/// for are lost.
 class DatagramSender {
  public:
   explicit DatagramSender(bool use_offload) : use_offload_(use_offload) {}
@@ -62,13 +63,13 @@ class DatagramSender {
 
   int socket_ = -1;
   bool use_offload_;
-  std::vector<std::byte> bytes_;  ///< what does not stay; never grows beyond what was reserved
+  std::vector<std::byte> bytes_;  ///< bodies that do not stay; never grows beyond what was reserved
   std::vector<iovec> parts_;
   std::vector<Message> messages_;
   std::uint64_t calls_ = 0, lost_ = 0;
 };
 
-/// Takes what has arrived, many messages in one call.
+/// Receives datagrams, many messages in one call.
 class DatagramReader {
  public:
   DatagramReader();

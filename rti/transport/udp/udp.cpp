@@ -1,4 +1,4 @@
-// TCP connections with ways for datagrams beside them, and what goes over both.
+// TCP connections with channels for datagrams beside them, and traffic over both.
 #include "rti/transport/udp/udp.h"
 
 #include <poll.h>
@@ -41,7 +41,7 @@ std::uint16_t UdpTransport::listen(const std::string& address, std::uint16_t por
   asio::ip::udp::endpoint endpoint = found.begin()->endpoint();
   asio::ip::udp::socket socket(context, endpoint.protocol());
   socket.bind(endpoint, error);
-  if (error) {  // the port's number is told to clients, so any will do
+  if (error) {  // clients are sent the port's number, so any will do
     endpoint.port(0);
     socket.bind(endpoint, error);
   }
@@ -89,8 +89,7 @@ void UdpTransport::on_close(ConnectionId connection, CloseReason reason,
                               channel->head_size == 0 && reason == CloseReason::closed_by_peer;
   if (channel != nullptr) by_key_.erase(channel->up_key);
   if (connection < channels_.size()) channels_[connection].reset();
-  // A server without UDP takes the request for nonsense, and that is all that can be seen of it
-  // from here.
+  // A server without UDP rejects the request as malformed, which is all that a client sees.
   listener_->on_close(connection, reason,
                       was_unanswered ? detail +
                                            " without an answer to the request for datagrams: does "
@@ -113,7 +112,8 @@ void UdpTransport::forward(ConnectionId connection, Bytes bytes) {
   listener_->on_bytes(connection, bytes);
 }
 
-/// The greeting comes first of all, and whether there is one is known when the client has spoken.
+/// Holds the server's bytes back until the client has sent some, which show whether a greeting must
+/// come first.
 void UdpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   Channel* channel = find(connection);
   if (channel == nullptr || channel->role != Channel::Role::undecided)
@@ -122,8 +122,7 @@ void UdpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   for (const Bytes part : parts) held.insert(held.end(), part.begin(), part.end());
   channel->held_bytes += held.size();
   if (channel->held_bytes <= settings_.tcp.queue_max) return;
-  channel->role =
-      Channel::Role::none;  // it has never spoken: what becomes of it is up to its own reading
+  channel->role = Channel::Role::none;  // it has sent nothing: its own reading decides
   let_go(connection, *channel);
 }
 
@@ -158,7 +157,7 @@ void UdpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener
   listener_ = nullptr;
 }
 
-/// The stream first: datagrams speak of objects that it tells of.
+/// The stream comes first: datagrams name objects that it announces.
 void UdpTransport::receive_pending() {
   tcp_.poll({}, *this);
   readiness_.ask({}, {});
@@ -169,7 +168,7 @@ void UdpTransport::receive_pending() {
       ask_again();
     } else if (event->number == server_mark) {
       constexpr int batches_max =
-          256;  // then the next poll goes on: who sends without pause must not keep us
+          256;  // then the next poll continues: a peer that sends without pause must not block
       for (int batch = 0; batch < batches_max; ++batch)
         if (!reader_.read(server_.number(), [this](const SocketAddress& source, Bytes datagram) {
               handle_client_datagram(source, datagram);
@@ -191,7 +190,7 @@ void UdpTransport::handle_client_datagram(const SocketAddress& source, Bytes dat
   const bool is_ours = reader.number(key) && reader.number(kind);
   const auto known = is_ours ? by_key_.find(key) : by_key_.end();
   Channel* channel = known == by_key_.end() ? nullptr : find(known->second);
-  // Who knows the key but comes from elsewhere than the TCP connection would have us flood a
+  // A sender with the key but another address than the TCP connection's could make this end flood a
   // stranger.
   if (channel == nullptr || !channel->address.is_same_host(source)) {
     ++counters_.stranger_datagrams;

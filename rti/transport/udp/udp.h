@@ -1,5 +1,5 @@
-// UDP beside TCP: the stream by TCP, datagrams by UDP, bound to each other so that nobody can
-// inject or be flooded (docs/wire.md, "UDP beside TCP").
+// UDP beside TCP: the stream by TCP, datagrams by UDP, bound to each other so that none can be
+// injected and no third party flooded (docs/wire.md, "UDP beside TCP").
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace rink::rti {
 
 struct UdpSettings {
   TcpSettings tcp;
-  bool use_offload = true;  ///< segmentation and its reverse by the kernel, if it can
+  bool use_offload = true;  ///< segmentation and its reverse by the kernel, if supported
 };
 
 struct UdpCounters {
@@ -24,22 +24,22 @@ struct UdpCounters {
   std::uint64_t ways_failed =
       0;  ///< connections whose datagrams never did, which have the stream only
   std::uint64_t stranger_datagrams =
-      0;  ///< from nobody known, from a wrong address, or nonsense: ignored, never answered
+      0;  ///< of an unknown key, from a wrong address, or malformed: ignored, never answered
   std::uint64_t lost_datagrams = 0;  ///< that the operating system did not take
   std::uint64_t send_calls = 0;      ///< of the operating system, for datagrams
   bool uses_offload = false;         ///< the kernel cuts; false once it has refused
 };
 
-/// A TcpTransport whose connections have, after a round trip or two, a way for datagrams. Where UDP
-/// does not get through, the stream carries on alone. Clients of a plain TcpTransport may connect
-/// to it; a client of this one needs a server of this one.
+/// A TcpTransport whose connections have, after a round trip or two, a channel for datagrams. Where
+/// UDP does not get through, the stream works alone. Clients of a plain TcpTransport may connect to
+/// it; a client of this one needs a server of this one.
 class UdpTransport final : public Transport, private TransportListener {
  public:
   explicit UdpTransport(const UdpSettings& settings = {});
   UdpTransport(const UdpTransport&) = delete;
   UdpTransport& operator=(const UdpTransport&) = delete;
 
-  /// As TcpTransport's; the UDP socket takes the same port if it is free, else any.
+  /// As TcpTransport::listen; the UDP socket takes the same port if it is free, else any.
   std::uint16_t listen(const std::string& address, std::uint16_t port);
   ConnectionId connect(const std::string& address, std::uint16_t port);
 
@@ -57,14 +57,14 @@ class UdpTransport final : public Transport, private TransportListener {
   UdpCounters udp_counters() const;
 
  private:
-  /// What the first byte after a datagram's key says.
+  /// The kind of a datagram, in the first byte after its key.
   enum class Kind : std::uint8_t { data, hello, welcome, confirm, open };
   static constexpr std::uint32_t datagram_magic = 0x47444b52;  ///< "RKDG": no frame is that long
   static constexpr std::size_t payload_max = 1200, prefix_size = 9;
   static constexpr std::size_t magic_size = 4, greeting_size = magic_size + 2 + 8 + 8;
 
-  /// One connection's datagrams. Of a server's, `undecided` until the client has asked for
-  /// datagrams, which is the first thing that it says.
+  /// One connection's datagrams. A server's is `undecided` until the client's first bytes show
+  /// whether it asks for datagrams.
   struct Channel {
     enum class Role : std::uint8_t { undecided, none, server, client };
     enum class State : std::uint8_t { closed, hello, confirm, open };
@@ -80,7 +80,7 @@ class UdpTransport final : public Transport, private TransportListener {
     std::size_t held_bytes = 0;
     File file;  ///< a client's own socket, connected
   };
-  /// What the greeting adds to the stream, which is nobody's payload, and the datagrams of one
+  /// Corrects counters by the greeting, which is no payload, and adds the datagrams of one
   /// connection.
   struct Tally {
     std::uint64_t stream_sent = 0, stream_received = 0, datagrams_sent = 0, datagrams_received = 0,
@@ -117,13 +117,13 @@ class UdpTransport final : public Transport, private TransportListener {
   TcpTransport tcp_;
   Readiness readiness_;
   File timer_;
-  File server_;  ///< the socket of all that connect to us
+  File server_;  ///< the socket of all connections of clients
   std::uint16_t server_port_ = 0;
   std::vector<std::unique_ptr<Channel>> channels_;  ///< by connection; null once closed
   std::vector<Tally> tallies_;                      ///< by connection
   std::unordered_map<std::uint64_t, ConnectionId>
-      by_key_;                        ///< by what clients' datagrams begin with
-  std::vector<ConnectionId> asking_;  ///< clients' ways that are not open yet
+      by_key_;                        ///< by the keys that clients' datagrams begin with
+  std::vector<ConnectionId> asking_;  ///< clients' channels that are not open yet
   DatagramSender sender_;
   DatagramReader reader_;
   UdpCounters counters_;

@@ -1,4 +1,4 @@
-// How a way for datagrams opens beside a TCP connection: greeting, questions and answers.
+// Opens a channel for datagrams beside a TCP connection: greeting, questions and answers.
 #include <sys/random.h>
 #include <sys/socket.h>
 #include <sys/timerfd.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int tries_max = 30;  ///< ten a second
 
-/// What a server says first of all to a client that asks for datagrams.
+/// The first message of a server to a client that asks for datagrams.
 struct DatagramGreeting {
   std::uint32_t magic = 0;
   std::uint16_t port = 0;
@@ -47,8 +47,8 @@ SocketAddress peer_of(int socket) {
 
 }  // namespace
 
-/// Takes what is ours of the stream's beginning and returns the rest. What turns out to be nobody's
-/// greeting is forwarded.
+/// Takes the request or greeting from the stream's beginning and returns the rest. Bytes that turn
+/// out to be neither are forwarded.
 Bytes UdpTransport::read_head(ConnectionId connection, Bytes bytes) {
   Channel& channel = *find(connection);
   const std::size_t wanted = channel.role == Channel::Role::client ? greeting_size : magic_size;
@@ -103,7 +103,7 @@ void UdpTransport::open_socket(ConnectionId connection, Channel& channel) {
   channel.address.set_port(greeting.port);
   channel.file = File(
       ::socket(channel.address.storage.ss_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  // Connected, it hears of nobody but the server.
+  // A connected socket receives from the server alone.
   if (!channel.file ||
       ::connect(channel.file.number(), channel.address.get(), channel.address.size) != 0) {
     ++counters_.ways_failed;

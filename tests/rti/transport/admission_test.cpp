@@ -95,7 +95,7 @@ TEST(Admission, TheFederateTurnsAwayFromAnRtiWithoutTheKey) {
   echoed[frame_header_size] = static_cast<std::byte>(MessageKind::admitted);
   bytes = echoed;
   EXPECT_EQ(federate.receive(bytes), State::failed);
-  EXPECT_EQ(federate.why(), "the RTI doesn't have our key");
+  EXPECT_EQ(federate.why(), "the RTI does not have this end's key");
 }
 
 TEST(Admission, AReplayedConversationProvesNothing) {
@@ -165,7 +165,7 @@ TEST(Admission, AStrangersFrameIsAtMostAKibibyteAndNeverEmpty) {
     const std::vector<std::byte> header = values_of(length);
     Bytes bytes = header;
     EXPECT_EQ(rti.receive(bytes), State::failed) << length << ", before anything of it is gathered";
-    EXPECT_EQ(rti.why(), "the other end speaks another language");
+    EXPECT_EQ(rti.why(), "the other end does not speak this protocol");
   }
   Handshake rti(ours(), Role::rti, "rink", nonce_of(1));
   const std::vector<std::byte> header = values_of(std::uint32_t{frame_max_to_join});
