@@ -1,4 +1,4 @@
-// What a filter says: which entities became relevant to which subscribers, and which ceased to be.
+// A filter's output: which entities became relevant to which subscribers, and which ceased to be.
 #pragma once
 
 #include <compare>
@@ -12,13 +12,12 @@ using Subscriber = std::uint32_t;
 
 enum class Transition : std::uint8_t { entered, left, tier_changed };
 
-/// `entity` became relevant (or stopped being relevant) to `subscriber`, or goes on being so at
-/// another rate.
+/// `entity` became relevant to `subscriber`, stopped being relevant, or stays so in another tier.
 struct Change {
   Subscriber subscriber;
   Entity entity;
   Transition transition;
-  std::uint8_t tier = 0;  ///< from 0, the nearest, where the stage `tiers` says so
+  std::uint8_t tier = 0;  ///< from 0, the nearest, under the stage `tiers`
   friend auto operator<=>(const Change&, const Change&) = default;
 };
 

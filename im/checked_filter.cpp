@@ -1,4 +1,4 @@
-// Knows who is there and judges regions before the filter sees them.
+// Knows the present ids and checks every argument before the filter gets it.
 #include "im/checked_filter.h"
 
 #include <cassert>

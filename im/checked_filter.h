@@ -1,5 +1,5 @@
-// A filter for callers that are not trusted: what is wrong is rejected by name, and the filter goes
-// on as if it had not been said.
+// A filter for callers that are not trusted: a faulty call is rejected with a reason and changes
+// nothing.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,23 @@ namespace rink::im {
 /// that is positive and finite. For expressions and all else that settings hold: `complaint_about`.
 std::optional<Rejection> check(const FilterSettings& settings);
 
-/// Wraps a scheme. Each call says what was wrong with it, or nothing; a call that is rejected
-/// changes nothing. `Filter` itself asserts its preconditions.
+/// Wraps a scheme. Each call returns its fault, or nothing; a call that is rejected changes
+/// nothing. `Filter` itself asserts its preconditions.
 class CheckedFilter {
  public:
-  /// Ids are less than `id_limit`: memory grows with the largest one, so a stranger may not choose
-  /// as he likes.
+  /// Ids are less than `id_limit`: memory grows with the largest one, so an untrusted caller may
+  /// not choose freely.
   CheckedFilter(std::unique_ptr<Filter> filter, std::uint32_t id_limit);
 
-  /// Rejected if it is there already, its id is not below the limit, or its region is bad.
+  /// Rejected if the entity exists already, its id is not below the limit, or its region is
+  /// invalid.
   std::optional<Rejection> add_entity(Entity entity, const Region& region) {
     return add(Subject::update_region, entities_, entity, region);
   }
   std::optional<Rejection> add_subscriber(Subscriber subscriber, const Region& region) {
     return add(Subject::subscription_region, subscribers_, subscriber, region);
   }
-  /// Rejected if it is not there, or its region is bad.
+  /// Rejected if the entity does not exist, or its region is invalid.
   std::optional<Rejection> move_entity(Entity entity, const Region& region) {
     return move(Subject::update_region, entities_, entity, region);
   }
@@ -44,15 +45,16 @@ class CheckedFilter {
   std::optional<Rejection> remove_entity(Entity entity);
   std::optional<Rejection> remove_subscriber(Subscriber subscriber);
 
-  /// Rejected if it is not there, or the heading is not finite.
+  /// Rejected if the subscriber does not exist, or the heading is not finite.
   std::optional<Rejection> turn(Subscriber subscriber, const Heading& heading);
   /// Rejected if it is not there.
   std::optional<Rejection> set_entity_role(Entity entity, const Role& role);
   std::optional<Rejection> set_subscriber_role(Subscriber subscriber, const Role& role);
-  /// Rejected if it is not there, or a number of the flight is not finite or beyond 1e150.
+  /// Rejected if the entity does not exist, or a number of the flight is not finite or beyond
+  /// 1e150.
   std::optional<Rejection> fly_entity(Entity entity, const Flight& flight);
   std::optional<Rejection> fly_subscriber(Subscriber subscriber, const Flight& flight);
-  /// Rejected if it is not finite, beyond 1e150 or before the last one.
+  /// Rejected if the time is not finite, beyond 1e150 or before the last one.
   std::optional<Rejection> set_time(double now);
 
   std::span<const Change> match() { return filter_->match(); }

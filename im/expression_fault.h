@@ -1,4 +1,4 @@
-// What is wrong with an expression and where, for whoever points a writer at it.
+// The fault of an expression and its place, for messages that point at it.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace rink::im {
 
-/// `what` as `complaint_about` says it; `character` is the first of the offender, counted from 1,
-/// or one beyond the last if something is missing at the end.
+/// `what` is the text of `complaint_about`; `character` is the first of the faulty part, counted
+/// from 1, or one beyond the last if something is missing at the end.
 struct ExpressionFault {
   std::string what;
   std::size_t character = 1;
@@ -17,9 +17,9 @@ struct ExpressionFault {
 /// What is wrong with `expression`; nothing if `make_filter` takes it.
 std::optional<ExpressionFault> fault_in(const std::string& expression);
 
-/// The same where it has to say what is relevant at an instant from how things are at that instant.
-/// Schemes do. Stages do not: they go by what was relevant before, by what is foreseen, or by how
-/// often something is told, so the first of them is a fault.
+/// The fault of an expression that must decide relevance at an instant from that instant alone.
+/// Schemes do. Stages do not: they depend on what was relevant before or on predicted flights, or
+/// decide how often an entity is updated, so the first stage is a fault.
 std::optional<ExpressionFault> fault_in_momentary(const std::string& expression);
 
 }  // namespace rink::im

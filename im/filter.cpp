@@ -1,4 +1,4 @@
-// The register of schemes: one line each, from name to class.
+// The registry of schemes: one line each, from name to class.
 #include "im/filter.h"
 
 #include <cmath>

@@ -28,18 +28,18 @@ struct Disc {
 
 class Worker;
 
-/// What a filter did since it was made; the proof that what did not move cost nothing.
+/// What a filter did since it was made; tests prove by it that what did not move cost nothing.
 struct FilterCounters {
-  std::uint64_t regions_moved = 0;  ///< regions handed in that differed, to the scheme, from what
-                                    ///< they were (`grid`: other cells)
+  std::uint64_t regions_moved = 0;  ///< regions that differed for the scheme from the ones before
+                                    ///< (`grid`: other cells)
   std::uint64_t pairs_tested = 0;   ///< (subscriber, entity) pairs looked at one by one
   std::uint64_t changes = 0;        ///< transitions reported
   std::uint64_t entries = 0;  ///< of these `entered`: each wants an entity's whole state, where
                               ///< others go on with updates
 };
 
-/// What else than its place makes an entity relevant. Ones that differ in `team` or `owner` have
-/// nothing to do with each other; by default nobody has either.
+/// What makes an entity relevant apart from its place. Only equal teams or owners match; by default
+/// there is neither.
 struct Role {
   static constexpr std::uint32_t none = 0xffffffffu;
   std::uint32_t team = none, owner = none;
@@ -47,8 +47,8 @@ struct Role {
   friend bool operator==(const Role&, const Role&) = default;
 };
 
-/// What a filter makes of what it may be told beside regions, and whether it says tiers: who hands
-/// in or expects anything else works for nothing.
+/// The facts beside regions that a filter uses, and whether it decides tiers. Callers may omit all
+/// other facts.
 struct Traits {
   bool uses_roles = false, uses_headings = false, uses_flights = false, says_tiers = false;
 };
@@ -68,7 +68,7 @@ struct RelevanceInterval {
   double enters, leaves;
 };
 
-/// One figure of what a stage did since it was made.
+/// One figure of a stage's work since it was made.
 struct StageCount {
   const char *stage, *what;
   std::uint64_t count;
@@ -76,18 +76,18 @@ struct StageCount {
 
 class PriorityOrder;
 
-/// Decides which entities matter to which subscribers, and says only what changed. Pure: no clock,
-/// no I/O; the same calls give the same changes. "Net" compares the last match with this one: who
-/// enters and leaves again in between is not mentioned. An id that is removed and added again is a
-/// new entity (or subscriber): it owes no `left` and has its `entered` reported afresh.
+/// Decides which entities matter to which subscribers, and reports only changes. Pure: no clock, no
+/// I/O; the same calls give the same changes. "Net" compares the last match with this one: an
+/// entity that enters and leaves again in between is not reported. An id that is removed and added
+/// again is a new entity (or subscriber): no `left` is reported for the old one, and `entered` is
+/// reported for the new one.
 class Filter {
  public:
   virtual ~Filter() = default;
 
   /// Adds `entity` or moves it. A region equal to the present one costs nothing.
   virtual void set_update_region(Entity entity, const Region& region) = 0;
-  /// Forgets `entity`; no `left` is reported for it, its caller knows. Unknown entities are
-  /// ignored.
+  /// Forgets `entity`; no `left` is reported for it. Unknown entities are ignored.
   virtual void remove_entity(Entity entity) = 0;
 
   /// Adds `subscriber` or moves its interest. A region equal to the present one costs nothing.
@@ -95,27 +95,27 @@ class Filter {
   /// Forgets `subscriber`; no `left` is reported for it.
   virtual void remove_subscriber(Subscriber subscriber) = 0;
 
-  /// Says where `subscriber` looks, for schemes with a field of view. Until then, and after one of
-  /// no length, it looks where its region last went: from its middle at one match to its middle at
-  /// the next; before it has ever moved, everywhere. Finite. A subscriber that is not there is
-  /// ignored; one that is forgotten looks nowhere.
+  /// Sets the direction in which `subscriber` looks, for schemes with a field of view. Without one,
+  /// or with one of no length, it looks where its region last moved: from its middle at one match
+  /// to its middle at the next; before its first move it looks everywhere. The heading is finite.
+  /// An unknown subscriber is ignored; forgetting a subscriber forgets its heading.
   virtual void set_heading(Subscriber, const Heading&) {}
 
-  /// Says who is of which team and whose, for the schemes `always`, `team` and `owner`. Who is not
-  /// there is ignored; who is forgotten loses his role.
+  /// Sets the role for the schemes `always`, `team` and `owner`. Unknown ids are ignored;
+  /// forgetting an id forgets its role.
   virtual void set_entity_role(Entity, const Role&) {}
   virtual void set_subscriber_role(Subscriber, const Role&) {}
 
-  /// Says how it moves on and which time it is [s], for the stage `swept`. Who is not there is
-  /// ignored. A region handed in afterwards ends a flight.
+  /// Set motions and the time [s] for the stage `swept`. Unknown ids are ignored. A region that is
+  /// set afterwards ends a flight.
   virtual void set_flight(Entity, const Flight&) {}
   virtual void set_subscriber_flight(Subscriber, const Flight&) {}
   virtual void set_time(double) {}
 
-  /// As the two setters above, of what flies in a straight line from `from` to `to`, rectangles of
-  /// one size: all that could be relevant with it anywhere in between is, and perhaps more. By
-  /// default that is the rectangle around both; a scheme whose shape in it would leave some of them
-  /// out says more (docs/im.md, "Swept").
+  /// Sets a region that sweeps in a straight line from `from` to `to`, rectangles of one size:
+  /// every pair that would be relevant anywhere in between is relevant, and perhaps more. By
+  /// default the region is the rectangle around both; a scheme whose shape in it would miss some
+  /// pairs overrides this (docs/im.md, "Swept").
   virtual void set_swept_update_region(Entity entity, const Region& from, const Region& to) {
     set_update_region(entity, hull_of(from, to));
   }
@@ -128,57 +128,56 @@ class Filter {
   /// call of any member.
   virtual std::span<const Change> match() = 0;
 
-  /// From the last match, by the stage `swept`: stays of pairs let through whose flights it had not
-  /// seen together, ordered by (subscriber, entity).
+  /// Intervals of relevance that the stage `swept` predicted at the last match, for relevant pairs
+  /// with new flights, ordered by (subscriber, entity).
   virtual std::span<const RelevanceInterval> relevance_intervals() const { return {}; }
-  /// Who is to be sent first, if the outermost stage that says so is `priority`; else nothing.
+  /// The order of sending, if the outermost stage that decides one is `priority`; else null.
   virtual PriorityOrder* priority() { return nullptr; }
 
   virtual Traits traits() const { return {}; }
 
   virtual const FilterCounters& counters() const = 0;
-  /// Appends what each stage did.
+  /// Appends the figures of each stage.
   virtual void list_counts(std::vector<StageCount>&) const {}
 
-  /// Side of the smallest cells that it decides by [m]; 0 if it has none. For who shows them.
+  /// Side of the smallest cells of the scheme [m], for displays; 0 if it has none.
   virtual double cell_size() const { return 0.0; }
 
-  /// Who may take half of a match from now on, where that pays (im/worker.h); null: nobody. It must
-  /// outlive the filter. The changes are the same, bit for bit.
+  /// Sets a worker that takes half of a match where that pays (im/worker.h), or null for none. It
+  /// must outlive the filter. The changes are the same, bit for bit.
   virtual void share_with(Worker*) {}
 };
 
-/// What a scheme may need to know to start.
+/// Settings that a scheme may need to start.
 struct FilterSettings {
   Region world{0.0, 0.0, 1.0,
                1.0};       ///< where entities are expected [m]; others are served too, only slower
   double cell_size = 0.0;  ///< side of the smallest cell [m]; 0 lets the scheme choose
   double half_angle_deg = 60.0;  ///< of a field of view, from its middle to either edge [degrees],
                                  ///< 0 to 180; people see sharply over some 120 degrees
-  std::vector<Disc> posts{};     ///< what blocks the view [m]
+  std::vector<Disc> posts{};     ///< discs that block the view [m]
   double drag = 0.0;             ///< of all flights: dv/dt = -drag v [1/s]
 };
 
-/// The scheme that `expression` says, or nothing if it says none. Schemes by name (see
+/// Makes the filter that `expression` describes, or null if it is faulty. Schemes by name (see
 /// `filter_names`) with parameters, composed with `and`, `or`, `not` and parentheses, followed by
 /// stages: "aura and not sight", "grid(cell_size=2) or always with hysteresis(margin=0.5) with
 /// dwell(matches=10)" (docs/im.md).
 std::unique_ptr<Filter> make_filter(const std::string& expression, const FilterSettings& settings);
 
-/// What is wrong with `expression` or `settings`, naming the offender; nothing if `make_filter`
-/// takes them.
+/// The fault of `expression` or `settings`, naming the faulty part; nothing if `make_filter` takes
+/// them.
 std::optional<std::string> complaint_about(const std::string& expression,
                                            const FilterSettings& settings);
 
-/// True if both are expressions and differ in nothing but how they are written: spaces,
-/// parentheses, digits.
+/// True if both are valid expressions that differ only in spelling: spaces, parentheses, digits.
 bool say_the_same(const std::string& expression, const std::string& other);
 
-/// True if `expression` has a scheme with cells whose size it does not give, so that they have the
-/// settings': what else they are told changes nothing.
+/// True if `expression` has a scheme with cells whose size it does not give, so that the settings'
+/// size applies.
 bool takes_cell_size(const std::string& expression);
 
-/// True if the scheme called `name` is one of those that `expression` is made of.
+/// True if `expression` contains the scheme called `name`.
 bool names_scheme(const std::string& expression, const std::string& name);
 
 /// `expression` as part of a file's name: without spaces and parentheses.

@@ -1,4 +1,4 @@
-// Which ids have a mark.
+// A set of ids, one bit each.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace rink::im {
 class Marks {
  public:
   bool has(std::uint32_t id) const { return id < marks_.size() && marks_[id] != 0; }
-  /// Whether that changes anything.
+  /// Returns whether the mark changed.
   bool set(std::uint32_t id, bool is_wanted = true) {
     if (has(id) == is_wanted) return false;
     if (id >= marks_.size()) marks_.resize(id + std::size_t{1});

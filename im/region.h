@@ -16,8 +16,8 @@ constexpr Region hull_of(const Region& a, const Region& b) {
           a.high_x > b.high_x ? a.high_x : b.high_x, a.high_y > b.high_y ? a.high_y : b.high_y};
 }
 
-/// True if `region` is finite and not inverted, as every filter asserts of what it is given. For
-/// the edge, where regions come from strangers.
+/// True if `region` is finite and not inverted, which every filter asserts. For checks of regions
+/// from untrusted sources.
 bool is_valid(const Region& region);
 
 }  // namespace rink::im

@@ -1,13 +1,13 @@
-// Somebody on another core who can take half of a job. Handed in, for `im` has no threads of its
-// own.
+// A seam for another core that takes half of a job. Callers implement it, since `im` has no threads
+// of its own.
 #pragma once
 
 #include <cstddef>
 
 namespace rink::im {
 
-/// Below so many a job is done alone: regions of a match in which all are looked at, and movers of
-/// one in which few move.
+/// Smaller jobs are not shared: regions of a match that looks at all, and movers of a match in
+/// which few move.
 struct WorthSharing {
   std::size_t regions = 32768, movers = 8192;
 };
@@ -15,16 +15,17 @@ struct WorthSharing {
 class Worker {
  public:
   virtual ~Worker() = default;
-  /// Begins `task(context)` elsewhere and returns. One at a time, and the task throws nothing.
+  /// Begins `task(context)` on another thread and returns. There is one task at a time, and it
+  /// throws nothing.
   virtual void start(void (*task)(void* context), void* context) = 0;
-  /// Returns when the task has ended; all that it wrote can be read then.
+  /// Returns when the task has ended and all that it wrote can be read.
   virtual void wait() = 0;
 
-  /// For one that sleeps in between; whoever wakes faster may say less.
+  /// The defaults suit a worker that sleeps in between; one that wakes faster may set less.
   WorthSharing worth_sharing;
 };
 
-/// `worker`, if there is one and so many are worth it.
+/// `worker`, if there is one and the count is worth sharing.
 inline Worker* for_regions(Worker* worker, std::size_t count) {
   return worker != nullptr && count >= worker->worth_sharing.regions ? worker : nullptr;
 }

@@ -1,5 +1,5 @@
-// The hash of everything that is told apart by one: states, models, files, names. The same on every
-// machine; guards against truncation, bad disks and editors, not against forgers.
+// The hash of states, models, files and names. It is the same on every machine; it detects
+// truncation, bad disks and edits, not forgery.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@ template <std::unsigned_integral Word>
 requires(sizeof(Word) == 4 || sizeof(Word) == 8) class FnvHash {
  public:
   constexpr FnvHash() = default;
-  /// Goes on from the value of another.
+  /// Continues from the value of another hash.
   constexpr explicit FnvHash(Word value) : value_(value) {}
 
   constexpr void add(std::uint8_t byte) { value_ = (value_ ^ byte) * prime; }

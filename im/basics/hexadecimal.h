@@ -1,4 +1,4 @@
-// How hashes are shown and stored.
+// Writes hashes in hexadecimal.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace rink {
 class SeededStream {
  public:
   explicit SeededStream(std::uint64_t state = 0) : state_(state) {}
-  /// From which another goes on with the same numbers.
+  /// The state from which another stream continues with the same numbers.
   std::uint64_t state() const { return state_; }
 
   std::uint64_t next() { return mixed(state_ += 0x9e3779b97f4a7c15u); }

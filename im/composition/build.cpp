@@ -1,4 +1,4 @@
-// Judges expressions and builds the filters that they say.
+// Checks expressions and builds the filters that they describe.
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -23,7 +23,7 @@ namespace {
 
 using Kind = Expression::Kind;
 
-/// What may be told to whom.
+/// A parameter, the scheme or stage that takes it, and its range.
 struct Key {
   const char *owner, *key;
   double low, high;
@@ -51,7 +51,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Six decimals at most, where these say it.
+/// The number with six decimals at most if these are exact.
 std::string shown(double number) {
   std::string text = std::to_string(number);
   if (std::stod(text) != number) {
@@ -97,7 +97,7 @@ std::string judge_parameters(const Expression& owner) {
   return {};
 }
 
-/// A scheme that no combination looks into.
+/// A part that a combination takes as one operand.
 bool is_operand(const Expression& expression) {
   return expression.kind == Kind::scheme || expression.kind == Kind::stage;
 }
@@ -109,7 +109,7 @@ std::size_t operand_count(const Expression& expression) {
   return count;
 }
 
-/// Whether what it says of a pair depends on where the two are.
+/// True if its decision about a pair depends on their places.
 bool looks_at_places(const Expression& expression) {
   if (expression.kind == Kind::scheme)
     return expression.name != "always" && expression.name != "none" && expression.name != "owner" &&
@@ -117,9 +117,9 @@ bool looks_at_places(const Expression& expression) {
   return std::any_of(expression.operands.begin(), expression.operands.end(), looks_at_places);
 }
 
-/// Of who is swept, an operand says whether it is true anywhere on the way. Under a `not`,
-/// `is_negated`, what counts is whether it is true everywhere on the way. That is not known, so it
-/// is taken as false.
+/// For a swept pair an operand is true if it is true anywhere on the way. Under a `not`,
+/// `is_negated`, it would have to be true everywhere on the way, which is not known, so it is taken
+/// as false.
 void flatten(const Expression& expression, const FilterSettings& settings, bool is_negated,
              std::vector<std::unique_ptr<Filter>>& operands, std::vector<Step>& steps) {
   assert(expression.operands.size() == (expression.kind == Kind::negation ? 1u
@@ -147,7 +147,8 @@ std::unique_ptr<Filter> build_combination(const Expression& expression,
   flatten(expression, settings, false, operands, steps);
   assert(operands.size() < PairStates::filter_max);  // `none` may join them
   if (follow(steps, 0, true)) {
-    // True where no operand is: it has to hear of every pair there is.
+    // The expression is true where no operand is, so it needs `none`, which lets every pair
+    // through.
     steps.push_back(static_cast<Step>(operands.size()));
     steps.push_back(Step::conjunction);
     operands.push_back(make_scheme("none", settings));
@@ -179,7 +180,7 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   if (stage.name == "priority")
     return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
   assert(stage.name == "tiers");
-  // Rings measure where those who fly are now, if what they stand behind knows of flights.
+  // Rings measure present places of flights if the inner filter uses flights.
   const Expression* const swept = swept_in(inner);
   const auto make_ring = [&] {
     auto ring = make_scheme("aura", settings);
@@ -193,7 +194,7 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   return make_tiers(build_inner(), std::move(rings), std::move(fractions));
 }
 
-/// True if `is_one` holds for a scheme in `text`, which says an expression.
+/// True if `is_one` holds for a scheme in the expression `text`.
 template <class IsOne>
 bool has_scheme(const std::string& text, const IsOne& is_one) {
   const auto search = [&is_one](const auto& self, const Expression& expression) -> bool {
@@ -222,7 +223,7 @@ std::string judge_settings(const FilterSettings& settings) {
   return {};
 }
 
-/// What is wrong with `expression` itself, whose operands are sound.
+/// The fault of `expression` itself, whose operands are valid.
 std::string judge_own(const Expression& expression) {
   const auto names = expression.kind == Kind::stage ? stage_names() : filter_names();
   if (is_operand(expression)) {
@@ -240,7 +241,7 @@ std::string judge_own(const Expression& expression) {
     if (is_last && !is_tiers_in_priority)
       return "after " + operand.name + " nothing may follow" +
              (operand.name == "tiers" ? " but priority" : "") +
-             ": it says more of a pair than that it is relevant";
+             ": it decides more than whether a pair is relevant";
   }
   return {};
 }
@@ -253,13 +254,13 @@ const Expression* stage_in(const Expression& expression) {
 }
 
 std::string why_not_momentary(const Expression& stage) {
-  const bool goes_by_before = stage.name == "hysteresis" || stage.name == "dwell";
+  const bool depends_on_past = stage.name == "hysteresis" || stage.name == "dwell";
   return stage.name +
-         (goes_by_before ? " goes by what was relevant before"
+         (depends_on_past ? " depends on what was relevant before"
           : stage.name == "swept"
-              ? " goes by what is foreseen"
-              : " says how often something is told, not whether it is relevant") +
-         ": what is relevant at an instant is said by schemes alone";
+              ? " depends on predicted flights"
+              : " decides how often an entity is updated, not whether it is relevant") +
+         ": only schemes decide relevance at one instant";
 }
 
 }  // namespace

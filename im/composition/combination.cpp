@@ -1,5 +1,4 @@
-// Keeps what each operand says of a pair and looks at the pair again when one of them changes its
-// mind.
+// Keeps each operand's decision about a pair and evaluates the pair again when one of them changes.
 #include "im/composition/combination.h"
 
 #include <algorithm>

@@ -9,10 +9,11 @@
 namespace rink::im {
 namespace {
 
-/// Nobody writes so many parentheses; a stranger may not exhaust the stack with them.
+/// More parentheses than any sensible expression has; the limit protects the stack against
+/// untrusted text.
 constexpr int depth_max = 32;
-/// Nor so many stages, each of which may double the filters behind it; and what is read is walked
-/// by recursion.
+/// The limit of stages, each of which may double the filters before it, and of the text, which is
+/// read by recursion.
 constexpr int stages_max = 8;
 constexpr std::size_t expression_size_max = 4000;
 
@@ -29,7 +30,7 @@ class Reader {
     if (complaint_.empty() && !token_.empty()) complain("expected 'and', 'or', 'with' or the end");
     return complaint_;
   }
-  /// Of what it complained about.
+  /// The place of the fault.
   Expression::Place place() const { return complained_at_; }
 
  private:

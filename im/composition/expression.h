@@ -1,5 +1,5 @@
-// How a scheme is written: names with parameters, and, or, not, parentheses, and stages after
-// `with`.
+// The syntax of composed schemes: names with parameters, and, or, not, parentheses, and stages
+// after `with`.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ struct Expression {
     double value;
     friend bool operator==(const Parameter&, const Parameter&) = default;
   };
-  /// Where it begins in the text, from 0; no part of what it says, so any two are equal.
+  /// Where the expression begins in the text, from 0; it has no meaning, so any two places are
+  /// equal.
   struct Place {
     std::size_t character = 0;
     friend bool operator==(const Place&, const Place&) { return true; }
@@ -41,16 +42,16 @@ struct Expression {
   double parameter(std::string_view key, double otherwise) const;
 };
 
-/// Reads `text` into `expression`. Returns what is wrong with it, naming the offender, whose
-/// `place` is said to who asks; an empty text if nothing is.
+/// Reads `text` into `expression`. Returns its fault, naming the faulty part, and sets `place` to
+/// where that begins; an empty text if there is none.
 std::string read_expression(std::string_view text, Expression& expression,
                             Expression::Place* place = nullptr);
 
-/// What is wrong with the names and parameters in `expression`, and at which `place`; an empty text
-/// if nothing is.
+/// The fault of the names and parameters in `expression`, and its `place`; an empty text if there
+/// is none.
 std::string judge_expression(const Expression& expression, Expression::Place* place = nullptr);
 
-/// The filter that a judged expression says.
+/// Builds the filter of a checked expression.
 std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterSettings& settings);
 
 }  // namespace rink::im

@@ -1,4 +1,4 @@
-// Gathers the news of all filters, one line per pair.
+// Gathers the changes of all filters, one entry per pair.
 #include "im/composition/pair_states.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// What several filters last said about each pair, and what was made of it.
+// The last decisions of several filters about each pair, and the resulting level.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +14,21 @@
 
 namespace rink::im {
 
-/// Keeps the pairs of which some filter says that they are relevant, 8 bytes each, and looks again
-/// at those about which one has changed its mind; at no others.
+/// Keeps the pairs that some filter holds relevant, 8 bytes each, and evaluates only those again
+/// about which a filter's decision changed.
 class PairStates {
  public:
-  /// Bit k: filter k says that it is relevant.
+  /// Bit k: filter k holds the pair relevant.
   using Says = std::uint16_t;
   static constexpr std::size_t filter_max = 16;
   /// 0: irrelevant; else 1 + tier.
   using Level = std::uint16_t;
 
-  /// Forgets the pairs of one who is gone. That of an entity looks at the list of every subscriber.
+  /// Forget the pairs of an id. Removing an entity looks at the list of every subscriber.
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
-  /// Has all its pairs looked at again. That of an entity looks at the list of every subscriber.
+  /// Have all pairs of an id evaluated again. Touching an entity looks at the list of every
+  /// subscriber.
   void touch_entity(Entity entity);
   void touch_subscriber(Subscriber subscriber);
 
@@ -37,7 +38,7 @@ class PairStates {
   /// was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
   template <class Decide>
   std::size_t review(const Decide& decide, Buffer<Change>& changes);
-  /// Asserts that lists are in order and keep no pair of which nobody says anything.
+  /// Asserts that lists are in order and keep no pair that no filter holds relevant.
   void check() const;
 
  private:
@@ -69,7 +70,7 @@ template <class Decide>
 void PairStates::look(const News& news, Entry entry, const Decide& decide,
                       Buffer<Change>& changes) {
   const Level was = entry.level;
-  // A filter says what changed: not twice that one entered, nor that one left who was not in.
+  // A filter reports changes only: no pair enters twice, or leaves without having entered.
   assert((entry.says & news.on) == 0 && (news.off & ~entry.says) == 0);
   entry.says = static_cast<Says>((entry.says | news.on) & ~news.off);
   entry.level = decide(news.subscriber, news.entity, entry.says, was);

@@ -1,4 +1,4 @@
-// Hands on, and adds up.
+// Forwards calls to the parts, and adds up their counters.
 #include "im/composition/parts.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A filter made of other filters: all that it is told it hands on to each of them.
+// A filter made of other filters, to each of which it forwards every call.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace rink::im {
 
-/// What combinations and stages derive from; they override what concerns them.
+/// The base of combinations and stages, which override what concerns them.
 class Parts : public Filter {
  public:
   /// At least one, and none is null.
@@ -41,12 +41,12 @@ class Parts : public Filter {
   }
   PriorityOrder* priority() override { return parts_.front()->priority(); }
   double cell_size() const override;
-  /// Moves and tests of all parts together, and its own tests; the changes are its own.
+  /// Moves and tests of all parts, and its own tests; the changes are its own.
   const FilterCounters& counters() const override { return counters_; }
   void list_counts(std::vector<StageCount>& counts) const override;
 
  protected:
-  /// To be called at the end of a match with what it reports.
+  /// Call it at the end of a match with the changes to report.
   std::span<const Change> reported(std::span<const Change> changes);
 
   std::vector<std::unique_ptr<Filter>> parts_;

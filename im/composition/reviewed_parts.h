@@ -1,5 +1,5 @@
-// A filter made of other filters that looks at a pair again when one of them changes its mind about
-// it.
+// A filter made of other filters that evaluates a pair again when the decision of one of them
+// changes.
 #pragma once
 
 #include <cassert>
@@ -13,8 +13,8 @@
 
 namespace rink::im {
 
-/// What those derive from whose answer about a pair follows from what each part says of it and from
-/// what it was.
+/// The base of filters whose decision about a pair follows from the parts' decisions and from its
+/// own last one.
 class ReviewedParts : public Parts {
  public:
   explicit ReviewedParts(std::vector<std::unique_ptr<Filter>> parts) : Parts(std::move(parts)) {
@@ -31,8 +31,8 @@ class ReviewedParts : public Parts {
   }
 
  protected:
-  /// Lets every part match and asks `decide(subscriber, entity, says, was)` for the level of each
-  /// pair about which one of them changed its mind. Returns what is to be reported.
+  /// Lets every part match and calls `decide(subscriber, entity, says, was)` for the level of each
+  /// pair about which one of them changed its decision. Returns the changes to report.
   template <class Decide>
   std::span<const Change> matched(const Decide& decide) {
     for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());

@@ -1,4 +1,4 @@
-// Schemes by their plain names, for those who put them together.
+// Makes schemes by their plain names, for compositions.
 #pragma once
 
 #include <memory>

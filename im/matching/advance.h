@@ -1,5 +1,5 @@
-// Takes up where boxes are now that were known where they were, and measures how far and how wide
-// they have become.
+// Updates the places of boxes in an index, and measures how far they moved and how wide they
+// became.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +25,21 @@ struct Advancing {
   BoxColumnsOut now;
 };
 
-/// The greatest of all, along each axis [m]; zero for nobody.
+/// The greatest values over all boxes, along each axis [m]; zero if there are none.
 struct Advanced {
   float widest_x = 0.0f, widest_y = 0.0f;  ///< side of the hull of a box before and now
   float shift_x = 0.0f, shift_y = 0.0f;    ///< way of a low corner from before to now
   float begun_x = 0.0f,
         begun_y = 0.0f;  ///< way up of a low corner from where it was binned to before
-  bool is_exact = true;  ///< no projection lost anything; may stay true where nobody asked
+  bool is_exact = true;  ///< no projection lost anything; may stay true if not asked for
 };
 
 /// Of the boxes at places `first` to `end`. `asks_exact`: whether `is_exact` is wanted.
 using Advance = Advanced (*)(const Advancing& boxes, std::size_t first, std::size_t end,
                              bool asks_exact);
 
-/// One box after the other, several at a time, or as the processor can: the same numbers.
+/// The function for these instructions: one box after the other, or several at a time, with the
+/// same numbers.
 Advance advance(Instructions instructions);
 
 }  // namespace rink::im

@@ -18,15 +18,15 @@ class BatchMatcher {
  public:
   explicit BatchMatcher(Instructions instructions = Instructions::best) : join_(instructions) {}
 
-  /// Where most regions are [m]; others are served too, only slower. A bad one is rejected and the
-  /// one before stays; it begins as the unit square.
+  /// Sets where most regions are [m]; others work too, only slower. An invalid one is rejected and
+  /// the one before stays; the first is the unit square.
   std::optional<Rejection> set_world(const Region& world);
 
-  /// Who takes half where there is enough to match (`WorthSharing`); null, as at first: nobody. It
-  /// must outlive the matcher. Pairs and their order are the same.
+  /// Sets a worker that takes half where there is enough to match (`WorthSharing`), or null for
+  /// none, as at first. It must outlive the matcher. Pairs and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
-  /// A region's id is its place. A bad region is left out and rejected; it overlaps nothing.
+  /// A region's id is its index. An invalid region is rejected and overlaps nothing.
   void match(std::span<const Region> updates, std::span<const Region> subscriptions);
 
   // What the last match found, valid until the next.

@@ -1,4 +1,4 @@
-// Takes memory for buffers and asks for huge pages where they pay.
+// Allocates memory for buffers and asks for huge pages where they pay.
 #include "im/matching/buffer.h"
 
 #include <cassert>

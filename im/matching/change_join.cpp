@@ -1,4 +1,4 @@
-// Chooses between binning everyone and asking on behalf of the movers, and does either.
+// Chooses between binning all boxes and queries for the movers, and does either.
 #include "im/matching/change_join.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 namespace rink::im {
 namespace {
 
-/// With more movers than this part of all, binning everyone costs less than asking for each.
+/// With more movers than this part of all, binning all boxes costs less than a query for each
+/// mover.
 constexpr std::size_t few_means_one_in = 6;
 /// With more subscribers than this their order in space decides how often a line of memory is
 /// fetched twice.
@@ -40,8 +41,8 @@ Verdict judge_moved(const void* context, std::uint32_t asker, std::uint32_t aske
   return verdict(is_met<question>(a.before, b.before), is_met<question>(a.now, b.now));
 }
 
-/// While the asked one stays where it was, or has come already. Empty lanes tie with a box as large
-/// as numbers go.
+/// Decides while the queried box stays at its old place, or is at its new one already. Empty lanes
+/// tie with a box as large as numbers go.
 template <Question question, Region Motion::*place>
 Verdict judge_standing(const void* context, std::uint32_t asker, std::uint32_t asked) {
   if (asked == LiveIndex::nobody) return Verdict::no;
@@ -69,7 +70,7 @@ Question of_subscribers(Shape shape) {
   return shape == Shape::rectangle ? Question::rectangles : Question::of_discs;
 }
 
-/// Grows a side that is none.
+/// Widens a side of length zero.
 Region with_area(Region world) {
   const auto widen = [](double& low, double& high) {
     if (high - low >= 1e-300 && high - low <= 1e300) return;
@@ -108,8 +109,8 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
   return changes_.ordered(subscribers.size());
 }
 
-/// Stages all of `side`, in the order in which they lay in space at the last time if that is known:
-/// then sorting them moves little.
+/// Stages all of `side`, in their order in space at the last match if that is known: then sorting
+/// moves little.
 void ChangeJoin::stage(const Side& side) {
   Standing& standing = side.standing;
   BoxIndex& index = standing.swept;
@@ -128,8 +129,8 @@ void ChangeJoin::stage(const Side& side) {
     if (is_nowhere(side.regions[id].before)) index.stage(id, side.regions[id]);
 }
 
-/// Has the index hold everyone of `side`: those whom it held at the last match stay in their cells
-/// while they are near.
+/// Puts all of `side` into the index: boxes that it had at the last match stay in their cells while
+/// they are near.
 void ChangeJoin::place(const Side& side) {
   Standing& standing = side.standing;
   if (standing.is_placed && standing.swept.size() == side.regions.present_count() &&
@@ -156,7 +157,7 @@ void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
     for (std::uint32_t id = 0; id < subscribers.regions.size(); ++id)
       if (!is_nowhere(subscribers.regions[id].now)) probes_.add(id, subscribers.regions[id]);
   };
-  // Few subscribers are listed before anybody has woken up.
+  // Few subscribers are listed sooner than a worker wakes up.
   run_both(is_ordered ? worker : nullptr, index_entities, index_subscribers);
   if (is_ordered) join(entities.standing.swept, subscribers.standing.swept, entities, subscribers);
   else join(entities.standing.swept, probes_, entities, subscribers);
@@ -178,7 +179,7 @@ void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& e
   pairs_tested_ += join_.candidate_count();
 }
 
-/// The askers to come.
+/// Lists the movers as queries.
 void ChangeJoin::list(const Side& movers) {
   probes_.begin(world_);
   for (std::size_t i = 0; i < movers.moved.size(); ++i) {
@@ -188,8 +189,8 @@ void ChangeJoin::list(const Side& movers) {
   }
 }
 
-/// What changes for `asked`, all of them at `place`, while the askers go from where they were to
-/// where they are.
+/// Finds the changes with `asked`, all of which are at `place`, while the askers move from their
+/// old to their new places.
 template <Region Motion::*place>
 void ChangeJoin::ask_lines(const Side& askers, const Side& asked, bool is_by_entity) {
   assert(shape_ == Shape::rectangle && probes_.size() == askers.moved.size());
@@ -243,8 +244,8 @@ void ChangeJoin::Standing::forget(std::uint32_t id, const Region& place) {
   if (is_live && lines.is_built() && !is_nowhere(place)) lines.remove(id, place);
 }
 
-/// First the entities move, then the subscribers: so nobody needs to ask whether the other has
-/// moved as well, and what the second undoes of the first cancels out.
+/// First the entities move, then the subscribers: so no query needs to know whether the other has
+/// moved as well, and opposite changes cancel out.
 void ChangeJoin::join_movers(const Side& entities, const Side& subscribers) {
   if (!entities.moved.empty()) {
     list(entities);

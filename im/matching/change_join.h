@@ -17,38 +17,38 @@ namespace rink::im {
 
 /// Keeps no pairs: a pair has changed if its overlap before and now differ, so both places are
 /// looked at at once. Two ways, the same result: when many moved, all boxes are binned anew by the
-/// hull of their two places and joined; when few did, first the entities that moved ask the
-/// subscribers where those were, then the subscribers that moved ask the entities where those are
-/// now, and a pair that changed twice has not changed.
+/// hull of their two places and joined; when few did, first the moved entities query the
+/// subscribers at their old places, then the moved subscribers query the entities at their new
+/// places, and a pair that changed twice has not changed.
 class ChangeJoin {
  public:
   explicit ChangeJoin(const Region& world, Instructions instructions = Instructions::best,
                       Shape shape = Shape::rectangle);
 
-  /// Every change, ordered by (subscriber, entity); `moved_...` are those whose place now is not
-  /// the one before, ascending. Valid until the next call.
+  /// Every change, ordered by (subscriber, entity); `moved_...` are the ids whose place has
+  /// changed, ascending. Valid until the next call.
   std::span<const Change> find(const RegionHistory& entities,
                                std::span<const std::uint32_t> moved_entities,
                                const RegionHistory& subscribers,
                                std::span<const std::uint32_t> moved_subscribers);
 
-  /// Who takes half where there is enough to match (worker.h); null, as at first: nobody. It must
-  /// outlive this. Changes and their order are the same.
+  /// Sets a worker that takes half where there is enough to match (worker.h), or null for none, as
+  /// at first. It must outlive this. Changes and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }
 
-  /// `place` is where it was at the last match, maybe nowhere.
+  /// `place` is the region at the last match, maybe nowhere.
   void forget_entity(std::uint32_t entity, const Region& place) { entities_.forget(entity, place); }
   void forget_subscriber(std::uint32_t subscriber, const Region& place) {
     subscribers_.forget(subscriber, place);
   }
 
-  /// Asserts that what is kept of either set from match to match agrees.
+  /// Asserts that the data kept of either set from match to match agrees.
   void check() const;
   std::uint64_t pairs_tested() const { return pairs_tested_; }
   std::size_t bytes() const;
 
  private:
-  /// What is kept of a set from match to match.
+  /// The data kept of a set from match to match.
   struct Standing {
     LineIndex lines;              // of rectangles
     LiveIndex live;               // of discs, and of what is asked about them

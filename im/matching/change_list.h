@@ -13,11 +13,11 @@ namespace rink::im {
 class ChangeList {
  public:
   void clear() { keys_.clear(); }
-  /// All that subscribers found among entities.
+  /// Adds all that subscribers found among entities.
   void add_by_subscriber(const Join& join);
-  /// All that entities found among subscribers.
+  /// Adds all that entities found among subscribers.
   void add_by_entity(const Join& join);
-  /// The same, from numbers whose high half is who asked, the low half whom he found with
+  /// Adds from numbers whose high half is the asker, and whose low half is the found id with
   /// `entered_bit`.
   void add_by_subscriber(std::span<const std::uint64_t> found);
   void add_by_entity(std::span<const std::uint64_t> found);

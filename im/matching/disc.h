@@ -1,4 +1,5 @@
-// What of a subscription an entity's rectangle must touch: all of it, or the disc that it holds.
+// The shape of a subscription that an entity's rectangle must touch: the rectangle, or the disc
+// that it holds.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Asks an index on behalf of the boxes of another, a block at a time, and gathers the answers.
+// Queries an index with the boxes of another, a block at a time, and gathers the answers.
 #pragma once
 
 #include <cassert>
@@ -17,8 +17,8 @@ class Join {
   explicit Join(Instructions instructions) : scans_(scans(instructions)) {}
 
   void clear();
-  /// Who takes half of what is added from now on; null: nobody. The answers are the same, in the
-  /// same order.
+  /// Sets a worker that takes half of what is added from now on, or null for none. The answers are
+  /// the same, in the same order.
   void share_with(Worker* worker) { worker_ = worker; }
   /// All pairs of `askers` and `index` that overlap now.
   void add_overlaps(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge);
@@ -67,7 +67,7 @@ class Join {
 
   const Scans& scans_;
   Worker* worker_ = nullptr;
-  Part own_, other_;  // the other's is added to ours
+  Part own_, other_;  // the worker's part is added to the own one
 };
 
 }  // namespace rink::im

@@ -1,4 +1,4 @@
-// Moved boxes that ask an index, in an order of the caller's.
+// Moved boxes as queries to an index, in the caller's order.
 #pragma once
 
 #include <cassert>

@@ -69,7 +69,7 @@ std::span<const std::uint32_t> RegionHistory::take_moved() {
     if (!is_listed(id)) motions_[id].before = motions_[id].now;
   settled_.clear();
   if (has_removed_) drop_removed();
-  // Whoever moves everything does so in order; then there is nothing to sort.
+  // A caller that moves everything does so in order; then there is nothing to sort.
   if (!std::is_sorted(moved_.data(), moved_.data() + moved_.size()))
     std::sort(moved_.data(), moved_.data() + moved_.size());
   if constexpr (checks_whole_structures) check();

@@ -40,8 +40,8 @@ class RegionHistory {
 
   /// Adds or moves `id`; false, and nothing done, if it is there already.
   bool set(std::uint32_t id, const Region& region);
-  /// Lists `id` as if it had moved, though it stays: something else about it changed. Nothing if it
-  /// is not known.
+  /// Lists `id` as moved, though it stays, since something else about it changed. Ignored if it is
+  /// not known.
   void touch(std::uint32_t id);
   /// True if `id` is somewhere.
   bool contains(std::uint32_t id) const {
@@ -56,15 +56,15 @@ class RegionHistory {
   std::size_t present_count() const { return motions_.size() - absent_count_; }
   const Motion& operator[](std::uint32_t id) const { return motions_[id]; }
   bool has_moved(std::uint32_t id) const { return is_listed(id); }
-  /// Where `id`, which is known, was at the last match; maybe nowhere.
+  /// The place of `id`, which is known, at the last match; maybe nowhere.
   const Region& last_place(std::uint32_t id) const {
     return is_listed(id) ? motions_[id].before : motions_[id].now;
   }
 
-  /// Those that were set to another place since the last match (and maybe back again), in ascending
-  /// order; has_moved and `before` agree from here to `settle`.
+  /// The ids that were set to another place since the last match (and maybe back again), in
+  /// ascending order; has_moved and `before` agree from here to `settle`.
   std::span<const std::uint32_t> take_moved();
-  /// The same again, until `settle`.
+  /// The ids that `take_moved` returned, until `settle`.
   std::span<const std::uint32_t> moved() const { return moved_.span(); }
   /// Makes now the new before.
   void settle();
@@ -92,8 +92,7 @@ class RegionHistory {
   Buffer<std::uint32_t>
       settled_;  // moved at the match before: their `before` is out of date unless they move again
   bool has_removed_ = false;
-  std::size_t absent_count_ = 0;  // nearly always there are none, and then no new region is asked
-                                  // whether it is that of a newcomer
+  std::size_t absent_count_ = 0;  // nearly always 0, and then no new region need be checked for one
 };
 
 }  // namespace rink::im

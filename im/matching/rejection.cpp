@@ -1,4 +1,4 @@
-// Judges regions and puts rejections into words.
+// Checks regions and describes rejections.
 #include "im/matching/rejection.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What was wrong with something handed in, and whose it was. Whoever rejects it goes on without it.
+// A rejected argument: its fault and its id.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Keeps both directions: who is near an entity, and which entities are near a subscriber.
+// Keeps both directions: the subscribers near an entity, and the entities near a subscriber.
 #include "im/schemes/candidate_pairs.h"
 
 namespace rink::im {

@@ -1,5 +1,5 @@
-// The pairs whose boxes overlap, with what was last said about each: what an exact test has to look
-// at again when one of the two moves.
+// The pairs whose boxes overlap, with the last decision about each: an exact test looks at them
+// again when one of the two moves.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace rink::im {
 /// Memory: 12 bytes per pair and half as much in reserve. Lists keep theirs when pairs go.
 class CandidatePairs {
  public:
-  /// Forgets the pairs of one who is gone.
+  /// Forget the pairs of an id.
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
 
@@ -30,10 +30,10 @@ class CandidatePairs {
   /// Forgets until when the pairs of `subscriber` may rest.
   void wake(Subscriber subscriber);
 
-  /// Takes up what changed among the boxes, which must be ordered, and asks `decide(subscriber,
-  /// entity, is_relevant, rests_until)` for each pair of those touched, whose third argument is
-  /// what it said last; the fourth, if it takes one, is its own to keep, below all numbers at
-  /// first. Appends what changed to `changes`, ordered.
+  /// Applies the ordered changes of the boxes, and calls `decide(subscriber, entity, is_relevant,
+  /// rests_until)` for each touched pair. The third argument is its last decision; the fourth, if
+  /// it takes one, is a number that it may keep, below all numbers at first. Appends the changes to
+  /// `changes`, ordered.
   template <class Decide>
   void review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
 

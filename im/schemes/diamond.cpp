@@ -1,4 +1,4 @@
-// The scheme `diamond`: an entity matters to a subscriber while it is within reach of his middle by
+// The scheme `diamond`: an entity matters to a subscriber while it is within reach of its middle by
 // steps along the axes, as games on squares count distance.
 #include <algorithm>
 #include <cmath>

@@ -62,8 +62,8 @@ class GridFilter final : public OverlapFilter {
 
   Region world_;
   double cell_size_;
-  std::vector<std::uint64_t> cells_;  // of each entity: nearly always it is in the same as before,
-                                      // and 8 bytes say so where its history takes a line of 64
+  std::vector<std::uint64_t> cells_;  // of each entity: most stay in their cell, which 8 bytes
+                                      // show, where the history needs a line of 64
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// How far regions have come in all: an upper bound that lets a pair rest until its two could have
-// come far enough.
+// How far regions have moved in all: an upper bound by which a pair needs no test until both could
+// have moved far enough.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace rink::im {
 /// [m]. Never less than that: rounding is added.
 class Odometer {
  public:
-  /// Takes up the steps of all who moved.
+  /// Adds the steps of all regions that moved.
   void follow(const RegionHistory& regions) {
     while (way_.size() < regions.size()) way_.push_back(0.0);
     for (const std::uint32_t id : regions.moved())

@@ -1,4 +1,4 @@
-// Keeps where regions were and are, and asks the engine what changed.
+// Keeps the old and present places of regions, and finds changes by the matching engine.
 #include "im/schemes/overlap_filter.h"
 
 #include <cassert>

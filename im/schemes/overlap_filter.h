@@ -1,5 +1,5 @@
-// Interest as overlap of closed rectangles, or of discs with rectangles, which the schemes share
-// that are nothing else.
+// Interest as overlap of closed rectangles, or of discs with rectangles; the base of schemes that
+// need no more.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace rink::im {
 
-/// A scheme that maps what it is given to other rectangles (`grid`: to cells) derives from it and
-/// overrides the two setters. Keeps no pairs.
+/// A scheme that maps regions to other rectangles (`grid`: to cells) derives from it and overrides
+/// the two setters. Keeps no pairs.
 class OverlapFilter : public Filter {
  public:
-  /// `world` is where most entities are, in the derived scheme's coordinates; `shape` is what of a
-  /// subscription counts.
+  /// `world` is where most entities are, in the derived scheme's coordinates; `shape` is the part
+  /// of a subscription that counts.
   explicit OverlapFilter(const Region& world, Instructions instructions = Instructions::best,
                          Shape shape = Shape::rectangle)
       : join_(world, instructions, shape) {}
@@ -33,8 +33,8 @@ class OverlapFilter : public Filter {
   std::size_t bytes() const;
 
  protected:
-  // The two halves of `match`, for who decides more exactly than rectangles do: what changed, and
-  // that all of it has been seen.
+  // The two halves of `match`, for filters that decide more exactly than by rectangles: `find`
+  // returns the changes, `settle` accepts the final ones.
   std::span<const Change> find();
   void settle(std::span<const Change> changes);
 

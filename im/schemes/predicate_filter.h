@@ -1,4 +1,4 @@
-// The short path to a scheme: makes a whole filter of a predicate that says whether one entity
+// The short path to a scheme: makes a whole filter of a predicate that decides whether one entity
 // matters to one subscriber.
 #pragma once
 
@@ -19,16 +19,16 @@
 
 namespace rink::im {
 
-/// One of the two that a predicate is asked about: an entity with its update region, or a
-/// subscriber with its subscription region.
+/// An argument of a predicate: an entity with its update region, or a subscriber with its
+/// subscription region.
 struct Party {
   std::uint32_t id;
   const Region& region;
 };
 
 /// What a predicate may return instead of a bool: the answer, and how far both may come from here,
-/// the sum of the greatest changes of any coordinate of either [m], before it can be another, as if
-/// nothing were rounded. 0: not known, ask again whenever one has moved.
+/// the sum of the greatest changes of any coordinate of either [m], before the answer can change,
+/// without regard to rounding. 0: not known, so the predicate is called whenever one has moved.
 struct Judgement {
   bool is_relevant;
   double slack;
@@ -36,9 +36,9 @@ struct Judgement {
 
 /// An entity matters to a subscriber while their closed rectangles overlap and
 /// `relevant(subscriber, entity)`, a pure function of two `Party`s, is true. The engine behind
-/// `OverlapFilter` finds the pairs whose rectangles overlap; the predicate is asked about those of
-/// which one has moved, and about no other. Who wants to be found from farther than his rectangle
-/// reaches derives from it and hands in a wider one, as schemes do that map regions to cells.
+/// `OverlapFilter` finds the pairs whose rectangles overlap; the predicate is called only for pairs
+/// of which one has moved. A scheme whose shapes reach beyond the rectangles derives from this
+/// class and sets wider ones, as schemes that map regions to cells do.
 template <class Relevant>
 class PredicateFilter : public OverlapFilter {
  public:
@@ -53,8 +53,8 @@ class PredicateFilter : public OverlapFilter {
     swept_subscribers_.unset(subscriber);
     OverlapFilter::set_subscription_region(subscriber, region);
   }
-  /// While one of both is swept the predicate is not asked: it knows one place, and may be true at
-  /// another. That their rectangles overlap somewhere is enough.
+  /// While one of both is swept the predicate is not called, since it sees one place and may be
+  /// true at another. Overlap of the rectangles is enough.
   void set_swept_update_region(Entity entity, const Region& from, const Region& to) override {
     if (from == to) set_update_region(entity, from);
     else sweep_entity(entity, hull_of(from, to));
@@ -97,21 +97,21 @@ class PredicateFilter : public OverlapFilter {
   }
 
  protected:
-  /// Of an entity that is swept over `hull`.
+  /// Marks the entity as swept over `hull`.
   void sweep_entity(Entity entity, const Region& hull) {
     OverlapFilter::set_update_region(entity, hull);
     swept_entities_.set(entity);
   }
-  /// Something else than its region changed what `subscriber` wants: by no more than a change of
-  /// its region by so many metres would, or by who knows how much.
+  /// A change other than of its region affects the pairs of `subscriber`: by no more than a change
+  /// of its region by `length` metres would, or without a bound.
   void turned(Subscriber subscriber, double length) { subscriber_ways_.add(subscriber, length); }
   void turned(Subscriber subscriber) { pairs_.wake(subscriber); }
 
  private:
   static Judgement judgement(bool is_relevant) { return {is_relevant, 0.0}; }
   static Judgement judgement(const Judgement& judgement) { return judgement; }
-  /// What a few sums and products of the coordinates of `region` may be wrong by, thousands of
-  /// times over.
+  /// A bound of the rounding error of a few sums and products of the coordinates of `region`, with
+  /// a factor of thousands to spare.
   static double rounding(const Region& region) {
     return 1e-12 * std::max(std::max(std::abs(region.low_x), std::abs(region.high_x)),
                             std::max(std::abs(region.low_y), std::abs(region.high_y))) +

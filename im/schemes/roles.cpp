@@ -9,8 +9,8 @@ using Place = Region (*)(const Role&);
 
 Region at(double x) { return {x, 0.0, x, 0.0}; }
 
-/// Puts all of a kind in one place of a line, so that overlap says who belongs together and nobody
-/// moves but by a change of role.
+/// Puts all with the same number at one place on a line, so that overlap shows which match, and
+/// only a change of role is a move.
 class RoleFilter final : public OverlapFilter {
  public:
   RoleFilter(Place of_entity, Place of_subscriber)
@@ -43,8 +43,8 @@ class RoleFilter final : public OverlapFilter {
   Place of_entity_, of_subscriber_;
 };
 
-/// Who has none meets nobody: entities without one stand to the left of all numbers, and
-/// subscribers still farther.
+/// Ids without a number match none: such entities are left of all numbers, and such subscribers
+/// still farther left.
 template <std::uint32_t Role::*number>
 std::unique_ptr<Filter> make_by() {
   return std::make_unique<RoleFilter>(

@@ -1,4 +1,4 @@
-// The stage `dwell`: who enters stays for some matches at least, however soon he is gone.
+// The stage `dwell`: a pair that became relevant stays so for some matches at least.
 #include <algorithm>
 #include <cassert>
 
@@ -45,7 +45,7 @@ class Dwell final : public Parts {
   /// A pair that is relevant here.
   struct Entry {
     Entity entity;
-    bool is_leaving;      ///< the part said that it left
+    bool is_leaving;      ///< the part reported that it left
     std::uint64_t since;  ///< the match at which it entered
   };
   struct Due {
@@ -73,7 +73,7 @@ class Dwell final : public Parts {
     entries[at] = entry;
   }
 
-  /// Asserts that entries are in order and that nobody stays whose time was up.
+  /// Asserts that entries are in order and that none stays beyond its time.
   void check() const {
     for (const Buffer<Entry>& entries : entries_) {
       for (std::size_t i = 1; i < entries.size(); ++i)
@@ -92,13 +92,13 @@ class Dwell final : public Parts {
     Buffer<Entry>& entries = entries_[change.subscriber];
     Entry* const entry = find(entries, change.entity);
     if (change.transition == Transition::entered) {
-      assert(!entry || entry->is_leaving);  // who enters was not in
+      assert(!entry || entry->is_leaving);  // a pair that enters was not in
       if (entry) return void((entry->is_leaving = false, ++called_off_));
       insert(entries, {change.entity, false, now_});
       changes_.push_back(change);
       return;
     }
-    assert(entry && !entry->is_leaving);  // who leaves was in
+    assert(entry && !entry->is_leaving);  // a pair that leaves was in
     if (now_ - entry->since >= matches_) {
       erase(entries, entry);
       changes_.push_back(change);
@@ -108,8 +108,8 @@ class Dwell final : public Parts {
       ++put_off_;
     }
   }
-  /// Lets go those whose time is up and who did not come back; they may have been put off more than
-  /// once.
+  /// Releases pairs whose time is up and that did not come back; a pair may have been postponed
+  /// more than once.
   void release() {
     Buffer<Due>& due = due_[now_ % due_.size()];
     if (due.empty()) return;

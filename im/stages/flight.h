@@ -1,4 +1,4 @@
-// When two that fly in straight lines against the same drag are together: closed forms, no
+// When two regions that fly in straight lines against the same drag touch: closed forms, no
 // sampling.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace rink::im {
 
-/// Where `flight` is at `time` [s], not before its own, and how fast it is then.
+/// The place and velocity of `flight` at `time` [s], not before its own.
 Flight at_time(const Flight& flight, double time, double drag);
 
 /// Half the sides of a box around a flight's middle [m].

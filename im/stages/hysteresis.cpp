@@ -1,5 +1,5 @@
-// The stage `hysteresis`: who is in stays in until he is out of a larger region, so that nobody
-// flaps at an edge.
+// The stage `hysteresis`: an entity stays relevant until it leaves a larger region, so that none
+// flips at an edge.
 #include <algorithm>
 #include <cassert>
 

@@ -1,4 +1,5 @@
-// The stage `priority`: keeps what is relevant and since when it waits, and sorts it when asked.
+// The stage `priority`: keeps relevant pairs and how long they have waited, and sorts them when
+// asked.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Who of those that are relevant to a subscriber is to be sent first, when not all fit.
+// The order in which entities relevant to a subscriber are sent when not all fit.
 #pragma once
 
 #include <algorithm>
@@ -12,24 +12,24 @@
 
 namespace rink::im {
 
-/// What was sent, and what not, in two classes: the whole state of who entered, and updates of who
-/// was there.
+/// What was sent and what was not, in two classes: full states of entities that entered, and
+/// updates of the others.
 struct PriorityCounts {
   std::uint64_t states = 0, state_bytes = 0;
   std::uint64_t updates = 0, update_bytes = 0;
   std::uint64_t put_off = 0;  ///< that a fill had no room for
 };
 
-/// Who entered comes first, then whose state is due; of each the most urgent. Urgency is the number
-/// of matches since it was last sent, or for a state on entry one more than since it entered,
-/// divided by 1 + d / r with d the distance of the middles and r half the shorter side of the
-/// subscription, and by 2^tier. It grows with every match, and where states and updates are both
-/// due they go first in turns (by `fill`), so nobody starves. Equals come by entity.
+/// Entities that entered come first, then those with updates due; in each class the most urgent.
+/// Urgency is the number of matches since it was last sent, or for a state on entry one more than
+/// since it entered, divided by 1 + d / r with d the distance of the middles and r half the shorter
+/// side of the subscription, and by 2^tier. It grows with every match, and where states and updates
+/// are both due they come first in turns (by `fill`), so none starves. Ties are broken by entity.
 class PriorityOrder {
  public:
   static constexpr std::size_t not_now = ~std::size_t{0};
 
-  /// `budget` [bytes] is for one subscriber and match, to be kept by who sends; 0: none.
+  /// `budget` [bytes] is for one subscriber and match, and the sender must keep it; 0: none.
   explicit PriorityOrder(std::size_t budget = 0) : budget_(budget) {}
   std::size_t budget() const { return budget_; }
 
@@ -46,8 +46,8 @@ class PriorityOrder {
 
   /// Takes from the front of the order as long as `bytes_of(item)` fit into `budget`, and stops at
   /// the first that does not, so that large ones get their turn; one that alone exceeds the budget
-  /// is taken alone. Notes them as sent. Of 0 bytes nothing is due: it is as if it had been sent,
-  /// and in no list; nor is what is `not_now`, which goes on waiting. Valid until the next call.
+  /// is taken alone. Notes them as sent. An item of 0 bytes has nothing due and counts as sent, in
+  /// no list; one that is `not_now` goes on waiting, in no list either. Valid until the next call.
   template <class BytesOf>
   std::span<const Item> fill(Subscriber subscriber, std::size_t budget, const BytesOf& bytes_of);
 
@@ -56,7 +56,7 @@ class PriorityOrder {
 
   const PriorityCounts& counts() const { return counts_; }
 
-  // What its filter tells it.
+  // Notices from its filter.
   void place_entity(Entity entity, const Region& region) { place(entities_, entity, region); }
   void place_subscriber(Subscriber subscriber, const Region& region) {
     place(subscribers_, subscriber, region);
@@ -64,7 +64,7 @@ class PriorityOrder {
   void remove_entity(Entity entity);
   void remove_subscriber(Subscriber subscriber);
   void take(std::span<const Change> changes);
-  /// Asserts that lists are in order and hold nobody without a place or sent in time to come.
+  /// Asserts that lists are in order, and that no item lacks a place or was sent in the future.
   void check() const;
 
  private:

@@ -1,5 +1,5 @@
 // The stage `swept`: regions that reach ahead along known flights, and the exact times at which
-// those who fly meet and part.
+// pairs begin and cease to touch.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -20,9 +20,9 @@ class Flights {
   struct Own {
     Flight flight;
     HalfExtent half;
-    double holds_until = 0.0;  ///< of the swept region that was handed on
+    double holds_until = 0.0;  ///< of the swept region that the inner filter has
     bool is_known = false;
-    bool is_told = false;    ///< flies by a flight that was told, not where a region put it
+    bool is_given = false;   ///< has a flight that was set, and not a region alone
     bool is_news = false;    ///< since the last match
     bool is_listed = false;  ///< among those in flight
   };
@@ -34,18 +34,18 @@ class Flights {
                           0.5 * region.high_y - 0.5 * region.low_y};
     const Flight flight{0.5 * region.low_x + 0.5 * region.high_x,
                         0.5 * region.low_y + 0.5 * region.high_y, 0.0, 0.0, now};
-    if (own.is_known && !own.is_told && own.flight.x == flight.x && own.flight.y == flight.y &&
+    if (own.is_known && !own.is_given && own.flight.x == flight.x && own.flight.y == flight.y &&
         own.half.x == half.x && own.half.y == half.y)
       return;
-    own.flight = flight, own.half = half, own.is_known = true, own.is_told = false;
+    own.flight = flight, own.half = half, own.is_known = true, own.is_given = false;
     mark(id);
   }
-  /// False if nobody is there, or it flies so already.
+  /// False if the id is unknown, or has that flight already.
   bool fly(std::uint32_t id, const Flight& flight) {
-    if (id >= all_.size() || !all_[id].is_known || (all_[id].is_told && all_[id].flight == flight))
+    if (id >= all_.size() || !all_[id].is_known || (all_[id].is_given && all_[id].flight == flight))
       return false;
     Own& own = all_[id];
-    own.flight = flight, own.is_told = true, own.holds_until = -1e300;
+    own.flight = flight, own.is_given = true, own.holds_until = -1e300;
     mark(id);
     if (!own.is_listed) own.is_listed = true, flying_.push_back(id);
     return true;
@@ -56,9 +56,9 @@ class Flights {
     all_[id] = Own{}, all_[id].is_listed = is_listed, all_[id].is_news = is_news;
   }
 
-  /// A decision stands until the next match, so a region is made anew when less than half of its
-  /// horizon is left. Hands its places at both ends to `hand_on(id, from, to)`. Who rests or has no
-  /// flight any more goes off the list and costs nothing from then on.
+  /// A decision holds until the next match, so a region is made anew when less than half of its
+  /// horizon is left. Calls `hand_on(id, from, to)` with its places at both ends. An id that rests
+  /// or has no flight any more leaves the list and costs nothing from then on.
   template <class HandOn>
   std::size_t sweep(double now, double horizon, double drag, const HandOn& hand_on) {
     assert(horizon >= 0.0 && drag >= 0.0);
@@ -66,8 +66,8 @@ class Flights {
     for (const std::uint32_t id : flying_.span()) {
       Own& own = all_[id];
       const bool is_flying =
-          own.is_told && (own.flight.velocity_x != 0.0 || own.flight.velocity_y != 0.0);
-      if (own.is_told && own.holds_until < now + 0.5 * horizon)
+          own.is_given && (own.flight.velocity_x != 0.0 || own.flight.velocity_y != 0.0);
+      if (own.is_given && own.holds_until < now + 0.5 * horizon)
         hand_on(id, place(own, now, drag), place(own, now + horizon, drag)),
             own.holds_until = now + horizon, ++swept;
       if (is_flying) flying_[kept++] = id;
@@ -85,7 +85,7 @@ class Flights {
     assert(id < all_.size());
     return all_[id];
   }
-  /// Asserts that the lists hold those, once each, who say that they are in them.
+  /// Asserts that the lists have each marked id once.
   void check() const {
     [[maybe_unused]] std::size_t listed = 0, news = 0;
     for (const Own& own : all_) listed += own.is_listed ? 1u : 0u, news += own.is_news ? 1u : 0u;
@@ -197,8 +197,8 @@ class Swept final : public Parts {
  private:
   bool look(Subscriber subscriber, Entity entity, bool was) {
     const Flights::Own &s = subscribers_[subscriber], &e = entities_[entity];
-    assert(s.is_known && e.is_known);  // who is gone is in no pair
-    if ((!was || s.is_news || e.is_news) && (s.is_told || e.is_told)) {
+    assert(s.is_known && e.is_known);  // an id that is gone is in no pair
+    if ((!was || s.is_news || e.is_news) && (s.is_given || e.is_given)) {
       const TimeSpan span =
           is_disc_ ? touching_disc(e.flight, e.half, s.flight, std::min(s.half.x, s.half.y), drag_)
                    : touching_boxes(e.flight, e.half, s.flight, s.half, drag_);

@@ -20,7 +20,7 @@ Region ring_of(const Region& region, double fraction) {
   return {x - half, y - half, x + half, y + half};
 }
 
-/// Part 0 is what it stands behind, part 1 + k the ring of tier k.
+/// Part 0 is the inner filter, part 1 + k the ring of tier k.
 class Tiers final : public ReviewedParts {
  public:
   Tiers(std::vector<std::unique_ptr<Filter>> parts, std::vector<double> fractions)

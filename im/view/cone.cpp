@@ -12,28 +12,27 @@
 namespace rink::im {
 namespace {
 
-/// Where everybody looks.
+/// The directions in which subscribers look.
 class Views {
  public:
   explicit Views(double half_angle_deg) : half_angle_deg_(half_angle_deg) {}
 
-  /// False if `subscriber` looks there already.
-  bool look(Subscriber subscriber, const Heading& heading, bool is_told) {
+  /// False if `subscriber` has that heading already.
+  bool look(Subscriber subscriber, const Heading& heading, bool is_given) {
     assert(subscriber < views_.size());
     View& view = views_[subscriber];
     const bool is_news = view.heading != heading;
     if (is_news) view.heading = heading, view.wedge = Wedge(heading, half_angle_deg_);
-    view.is_told = is_told;
+    view.is_given = is_given;
     return is_news;
   }
-  bool is_told(Subscriber subscriber) const { return views_[subscriber].is_told; }
+  bool is_given(Subscriber subscriber) const { return views_[subscriber].is_given; }
   Heading heading(Subscriber subscriber) const { return views_[subscriber].heading; }
   void set_swept(Subscriber subscriber, bool is_swept) {
     assert(subscriber < views_.size());
     views_[subscriber].is_swept = is_swept;
   }
-  /// Whether it moved from one place to another since it moved last. To be asked once for each
-  /// move.
+  /// True if it moved from one place to another since its last move. Call it once for each move.
   bool has_way(Subscriber subscriber) {
     View& view = views_[subscriber];
     return !std::exchange(view.was_swept, view.is_swept) && !view.is_swept;
@@ -50,9 +49,10 @@ class Views {
  private:
   struct View {
     Heading heading;
-    bool is_told = false;  ///< not learnt from moves
+    bool is_given = false;  ///< not learnt from moves
     bool is_swept = false,
-         was_swept = false;  ///< its region now, and when it moved last, is no place where it is
+         was_swept = false;  ///< its present region, and that of its last move, is swept and no
+                             ///< single place
     Wedge wedge;
   };
   std::vector<View> views_;
@@ -88,7 +88,7 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
     PredicateFilter::set_swept_subscription_region(subscriber, from, to);
     set_swept(subscriber, true);
     const Eye start(plain(from)), end(plain(to));
-    if (!is_told(subscriber))
+    if (!is_given(subscriber))
       look(subscriber, {end.x - start.x, end.y - start.y},
            false);  // which matters once it has landed
   }
@@ -116,7 +116,7 @@ class ConeFilter final : private Views, public PredicateFilter<InView> {
  private:
   void learn(Subscriber subscriber) {
     const Motion& motion = subscribers_[subscriber];
-    if (!has_way(subscriber) || is_told(subscriber) || is_nowhere(motion.before) ||
+    if (!has_way(subscriber) || is_given(subscriber) || is_nowhere(motion.before) ||
         is_nowhere(motion.now))
       return;
     const Eye from(plain(motion.before)), to(plain(motion.now));

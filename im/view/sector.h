@@ -6,12 +6,12 @@
 
 namespace rink::im {
 
-/// Where regions are as far as views are concerned: in plain numbers.
+/// The region in plain numbers, as views use it.
 inline Region plain(const Region& region) {
   return {plain(region.low_x), plain(region.low_y), plain(region.high_x), plain(region.high_y)};
 }
 
-/// Where a subscriber stands: the middle of his region, rounded to doubles.
+/// A subscriber's eye: the middle of its region, rounded to doubles.
 struct Eye {
   double x = 0.0, y = 0.0;
   explicit Eye(const Region& region)

@@ -1,4 +1,4 @@
-// What a post hides from an eye.
+// Decides what a post hides from an eye.
 #pragma once
 
 #include "im/filter.h"

@@ -1,5 +1,5 @@
-// Bins boxes by counting sort, level by level, and finds the stretches of cells that a question
-// must look at.
+// Bins boxes by counting sort, level by level, and finds the stretches of cells that a query must
+// look at.
 #include "im/matching/index/box_index.h"
 
 #include <cassert>
@@ -16,7 +16,7 @@ namespace {
 /// many rows. Columns are cheap: the cells of a row lie one after the other.
 constexpr CellShape box_cell_shape{32.0, 6.0, 2.0};
 
-/// Boxes are followed until they may be this part of a column from their cells: farther, questions
+/// Boxes keep their cells until they may be this part of a column away from them: farther, queries
 /// look at so many more that binning anew is cheaper.
 constexpr float drift_max = 0.65f;
 /// Nor do they keep cells when their hulls have become so many times as wide.
@@ -194,7 +194,7 @@ void BoxIndex::check() const {
   for (const CellLevel& level : levels_) check(level);
 }
 
-/// Whoever asks from where a box is finds its cell.
+/// A query at a box's place finds its cell.
 void BoxIndex::check(const CellLevel& level) const {
   for (std::uint32_t cell = 0; cell < level.cell_count(); ++cell)
     for (std::uint32_t i = starts_[level.first_cell + cell];

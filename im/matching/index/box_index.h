@@ -1,5 +1,5 @@
-// Many boxes, each stored once, in the order of the cells they are in: built at a stroke, asked
-// often, thrown away.
+// Many boxes, each stored once, in the order of their cells: built at once, queried often, thrown
+// away.
 #pragma once
 
 #include <cassert>
@@ -29,10 +29,10 @@ class BoxIndex {
   void stage(std::uint32_t id, const Motion& motion);
   /// Bins what was staged by counting sort: linear in boxes and cells.
   void build();
-  /// The next places of all moving boxes that were built: each stays in the cell that it has,
-  /// questions reach as much farther as boxes have come since. `regions` are where they are now,
-  /// all of them and at the last match in the places that are known here. False, and then it must
-  /// be built anew, if they have come or grown too far for that to pay.
+  /// Updates the places of all moving boxes: each stays in its cell, and queries reach as much
+  /// farther as boxes have moved since. `regions` has their present places, and as last places
+  /// those that are known here. False if they have moved or grown too far for that to pay: then the
+  /// index must be built anew.
   bool follow(const RegionHistory& regions, Instructions instructions = Instructions::best);
 
   std::size_t size() const { return ids_.size(); }
@@ -53,7 +53,7 @@ class BoxIndex {
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many. Cells
   /// well inside both its places hold none.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
-  /// The same for who asks what touches his disc.
+  /// As above for a query about the probe's disc.
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
 
   std::size_t bytes() const;

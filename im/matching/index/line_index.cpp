@@ -93,7 +93,8 @@ void LineIndex::copy(std::uint32_t from, std::uint32_t to) {
     further_place_of_[lines_[to].id(lane)] = to * lanes + lane;
 }
 
-/// Makes room for one line more. A run never shrinks: who leaves a crowd often comes back.
+/// Makes room for one line more. A run never shrinks, since boxes that leave a crowd often come
+/// back.
 void LineIndex::grow_run(std::uint32_t cell) {
   const Run old = runs_[cell];
   if (old.size < old.capacity) return;
@@ -239,7 +240,7 @@ void LineIndex::visit(const Probe& probe, std::uint32_t asker, Buffer<Visit>& vi
   }
 }
 
-/// Writes what a comparison said; returns the next place if it said anything.
+/// Writes a comparison's result; returns the next place if there was a hit.
 inline LineIndex::Hit* LineIndex::list(Hit* hit, const Line& line, std::uint32_t asker,
                                        const LineHits& outcome) {
   *hit = {&line, asker, static_cast<std::uint8_t>(outcome.changed),
@@ -247,8 +248,8 @@ inline LineIndex::Hit* LineIndex::list(Hit* hit, const Line& line, std::uint32_t
   return hit + ((outcome.changed | outcome.tied) != 0 ? 1 : 0);
 }
 
-/// Compares the first lines, which were asked for, and lists what they say. Whether a line says
-/// anything is anybody's guess, so nothing branches on it.
+/// Compares the first lines, which were prefetched, and lists their hits. Whether a line has a hit
+/// cannot be predicted, so nothing branches on it.
 template <class Compare>
 void LineIndex::read_lines(Answers& answers) const {
   const std::span<const Visit> visits = answers.visits.span();
@@ -266,7 +267,7 @@ void LineIndex::read_lines(Answers& answers) const {
   answers.crowded.resize(static_cast<std::size_t>(crowded - answers.crowded.data()));
 }
 
-/// The same of further lines: where those are is in memory that must be asked for before.
+/// Compares the further lines, whose places are in memory that must be prefetched before.
 template <class Compare>
 void LineIndex::read_further(Answers& answers) const {
   constexpr std::size_t soon = 4, later = 8;
@@ -291,7 +292,7 @@ void LineIndex::read_further(Answers& answers) const {
   }
 }
 
-/// From lines to boxes.
+/// Turns hits in lines into boxes.
 void LineIndex::take_hits(const ProbeList& askers, const RegionHistory& regions, Answers& answers) {
   answers.found.reserve(answers.found.size() + lanes * answers.hits.size() + 1);
   for (const Hit& hit : answers.hits.span()) {

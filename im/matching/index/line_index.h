@@ -1,5 +1,5 @@
-// Boxes that stand, each stored once in its cell and a cell in one line of memory, where few of
-// them move at a time: those are put elsewhere in place and nothing else is touched.
+// An index for boxes of which few move at a time: each box is stored once in its cell, a cell is
+// one line of memory, and moving a box touches nothing else.
 #pragma once
 
 #include <array>
@@ -19,16 +19,15 @@ namespace rink::im {
 
 struct LineHits;
 
-/// What a load beyond the caches costs, 100 ns and more, is what a mover costs; so who asks reads
-/// one line for each cell, and who moves finds his own without being told where it is: his cell
-/// follows from where he was. What does not fit into a cell's line is in a run of further lines
-/// elsewhere, all full. About 26 bytes per box where boxes are spread evenly.
+/// The cost of a mover is that of loads beyond the caches, 100 ns and more each; so a query reads
+/// one line for each cell, and a moving box finds its line from its old place. What does not fit
+/// into a cell's line is in a run of further lines elsewhere, all full. About 26 bytes per box
+/// where boxes are spread evenly.
 class LineIndex {
  public:
   /// What some askers found, in no order.
   struct Answers {
-    Buffer<std::uint64_t>
-        found;  ///< the asker's id, and below it what he found, with `entered_bit`
+    Buffer<std::uint64_t> found;  ///< the asker's id, and below it the found id with `entered_bit`
     std::uint64_t candidate_count = 0;
     void clear() { found.clear(), candidate_count = 0; }
     std::size_t bytes() const {
@@ -51,11 +50,10 @@ class LineIndex {
     };
     Buffer<Visit> visits, crowded;  // those of cells with further lines once more
     Buffer<Hit> hits;
-    Buffer<std::uint64_t> doubts;  // the asker's id, and below it whom he may have found
+    Buffer<std::uint64_t> doubts;  // the asker's id, and below it an id that it may have found
   };
 
-  /// Who asks, some of `askers`, and what decides where bytes cannot: `judge`, which asks the
-  /// regions that `regions` holds.
+  /// The queries, some of `askers`, and `judge`, which decides by `regions` where bytes cannot.
   struct Inquiry {
     const ProbeList& askers;
     std::size_t begin, end;
@@ -63,20 +61,21 @@ class LineIndex {
     const RegionHistory& regions;
   };
 
-  /// Starts anew with those of `regions` that are somewhere at `place`: where they were or where
-  /// they are now.
+  /// Builds the index of those `regions` that are somewhere at `place`, their old or their present
+  /// one.
   void build(const Region& world, const RegionHistory& regions, Region Motion::*place);
-  /// Adds boxes or moves them from where they were to where they are now.
+  /// Adds boxes or moves them from their old to their present places.
   void put(const ProbeList& moved);
   /// Of a box that is there.
   void remove(std::uint32_t id, const Region& place);
 
   bool is_built() const { return is_built_; }
   std::size_t size() const { return size_; }
-  /// True if it was never built, or so much came or grew since that it is worth building anew.
+  /// True if it was never built, or so many boxes came or grew since that it is worth building
+  /// anew.
   bool is_outgrown() const;
-  /// All of which an overlap with one of the askers changed while those went from where they were
-  /// to where they are.
+  /// Finds all boxes whose overlap with an asker changes while the askers move from their old to
+  /// their present places.
   void find_changes(const Inquiry& inquiry, Instructions instructions, Answers& answers) const;
   std::size_t bytes() const;
   /// Asserts that lines and runs hold each box once, where its id is looked for, and no other

@@ -1,4 +1,4 @@
-// Compares one who asks with the eight boxes of a line at a stroke.
+// Compares one query with the eight boxes of a line at once.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace rink::im {
 
-/// What came of it, a bit for each lane. Where `tied`, the others say nothing.
+/// The result, a bit for each lane. Where `tied`, the others mean nothing.
 struct LineHits {
   unsigned changed, entered, tied;
 };
@@ -44,7 +44,7 @@ class OneByOne {
 };
 
 #ifdef __SSE2__
-/// The same at a stroke.
+/// Compares all at once by SSE2.
 class BySse2 {
  public:
   explicit BySse2(std::uint64_t asking) {

@@ -110,7 +110,8 @@ void LiveIndex::copy_boxes(std::uint32_t from, std::uint32_t to) {
     place_of_[blocks_[to].ids[lane]] = to * lanes + lane;
 }
 
-/// Makes room for one block more. A run never shrinks: who leaves a crowd often comes back.
+/// Makes room for one block more. A run never shrinks, since boxes that leave a crowd often come
+/// back.
 void LiveIndex::grow_run(std::uint32_t cell) {
   const std::uint32_t run = blocks_[cell].run, size = blocks_[cell].run_size,
                       capacity = blocks_[cell].run_capacity;

@@ -1,5 +1,5 @@
-// Boxes that stand, each stored once in its cell, where few of them move at a time: those are put
-// elsewhere in place and nothing else is touched.
+// An index for boxes of which few move at a time: each box is stored once in its cell, and moving
+// one touches nothing else.
 #pragma once
 
 #include <array>
@@ -22,21 +22,22 @@ class LiveIndex {
   /// Never the id of a box: an empty lane's.
   static constexpr std::uint32_t nobody = RegionHistory::id_max;
 
-  /// Starts anew with those of `regions` that are somewhere at `place`: where they were or where
-  /// they are now.
+  /// Builds the index of those `regions` that are somewhere at `place`, their old or their present
+  /// one.
   void build(const Region& world, const RegionHistory& regions, Region Motion::*place);
   /// Adds or moves boxes to where they are now.
   void put(std::span<const std::uint32_t> ids, const RegionHistory& regions);
   void remove(std::uint32_t id);
 
-  /// True if it was never built, or so much came or grew since that it is worth building anew.
+  /// True if it was never built, or so many boxes came or grew since that it is worth building
+  /// anew.
   bool is_outgrown() const;
   std::size_t size() const { return size_; }
   Candidates candidates() const;
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many boxes
   /// those are.
   std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
-  /// The same for who asks what touches his disc.
+  /// As above for a query about the probe's disc.
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
   std::size_t bytes() const;
   /// Asserts that blocks hold each box once, in its cell and where its id says, and no other memory

@@ -1,4 +1,4 @@
-// Sorts boxes into few classes of like size, so that one huge box does not make everyone look far.
+// Sorts boxes into few classes of similar size, so that one huge box does not widen every query.
 #pragma once
 
 #include <array>

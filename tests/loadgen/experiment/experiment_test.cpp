@@ -155,11 +155,11 @@ TEST(ExperimentFile, ARelevanceExpressionThatIsNoneIsRefusedByFileKeyAndPlaceInI
 /// What they say depends on more than how things are.
 TEST(ExperimentFile, StagesSayNotWhatIsRelevantAtAnInstant) {
   for (const auto& [stage, why] :
-       {std::pair{"hysteresis(margin=0.3)", "goes by what was relevant before"},
-        {"dwell(matches=3)", "goes by what was relevant before"},
-        {"swept(horizon=0.1)", "goes by what is foreseen"},
-        {"tiers(at=0.5)", "says how often something is told"},
-        {"priority(budget=100)", "says how often"}}) {
+       {std::pair{"hysteresis(margin=0.3)", "depends on what was relevant before"},
+        {"dwell(matches=3)", "depends on what was relevant before"},
+        {"swept(horizon=0.1)", "depends on predicted flights"},
+        {"tiers(at=0.5)", "decides how often an entity is updated"},
+        {"priority(budget=100)", "decides how often"}}) {
     const std::string complaint = complaint_about(
                           minimal + "relevance = 'filter'\nrelevant = 'team or (aura with " +
                           stage + ")'"),
