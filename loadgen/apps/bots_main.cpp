@@ -45,7 +45,7 @@ struct Options {
          warm_up_s = 0.0, patience_s = 30.0;
 };
 
-/// What recording one latency costs on this machine [ns]: the mean over 100,000.
+/// The mean cost of recording one latency on this machine over 100,000 [ns].
 double histogram_ns_per_record() {
   constexpr int count = 100'000;
   loadgen::Histogram histogram;
@@ -54,7 +54,7 @@ double histogram_ns_per_record() {
   return histogram.count() == count ? 1e9 * (now_s() - begin_s) / count : 0.0;
 }
 
-/// How busy this process keeps the processors it may use, within a span.
+/// The load of this process on the processors that it may use, within a span.
 class ProcessorLoad {
  public:
   void look(bool is_within) {
@@ -208,7 +208,7 @@ game::ExitStatus status(const loadgen::BotCrowd& crowd) {
   return game::ExitStatus::ok;
 }
 
-/// What the flags or the file say of where to join what.
+/// The federation to join and its address, by the flags or the file.
 rti::FederationFile federation_of(const Options& options) {
   if (options.federation_file.empty()) {
     const auto [address, port] = game::address_and_port("--connect", options.connect);

@@ -1,4 +1,4 @@
-// What --help of rink compare says.
+// Defines the flags of rink compare and its help text.
 #include "loadgen/apps/compare_flags.h"
 
 #include "loadgen/experiment/experiment.h"
@@ -22,7 +22,7 @@ Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does
 
 Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
 
-/// What an experiment may compare, each with its parameters.
+/// Lists all schemes and stages with their parameters.
 std::string schemes_and_stages() {
   const auto lines = [](const char* title, const std::vector<std::string>& names) {
     std::string text = title, line;

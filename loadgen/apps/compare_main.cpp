@@ -85,7 +85,7 @@ void expect_enough_files(const Experiment& experiment) {
                         " are allowed: raise the hard limit (ulimit -Hn)");
 }
 
-/// All but the folder for the reports. Throws ExperimentError if a program is missing.
+/// Settings without the folder for the reports. Throws ExperimentError if a program is missing.
 RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers) {
   RunnerSettings settings;
   const std::filesystem::path programs =
@@ -102,7 +102,7 @@ RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers) 
   return settings;
 }
 
-/// Writes what the runs give together; returns why that failed, or an empty text.
+/// Writes the results of all runs; returns why that failed, or an empty text.
 std::string write_results(const ResultsDirectory& results, const Experiment& experiment,
                           const std::vector<RunRecord>& runs, const Provenance& provenance,
                           std::span<const ReportSection> more_sections) {
@@ -135,8 +135,8 @@ std::string write_results(const ResultsDirectory& results, const Experiment& exp
   return {};
 }
 
-/// The experiment's own seeds, or the first so many of them and, where there are fewer, the numbers
-/// that follow the largest.
+/// The first `count` of the experiment's own seeds, followed by the numbers after the largest where
+/// there are fewer; all own seeds if `count` is 0.
 std::vector<std::uint64_t> seeds_of(std::vector<std::uint64_t> own, std::uint32_t count) {
   std::uint64_t next = *std::ranges::max_element(own) + 1;
   while (own.size() < count) own.push_back(next++);
@@ -182,7 +182,7 @@ CompareStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
   return static_cast<std::size_t>(valid) < outcome.runs.size() ? some_invalid : success;
 }
 
-/// Says how each demand turned out; true if all hold.
+/// Prints the result of each assertion; true if all hold.
 bool judge(const std::vector<Assertion>& assertions, const Experiment& experiment,
            const Outcome& outcome) {
   if (outcome.was_interrupted && !assertions.empty())
@@ -200,7 +200,7 @@ bool judge(const std::vector<Assertion>& assertions, const Experiment& experimen
   return do_all_hold;
 }
 
-/// The folder, and what of it is kept.
+/// Opens the folder and finds the runs in it that are kept.
 Continuation opened_results(const CompareOptions& options, const Experiment& experiment,
                             const JournalHead& head) {
   if (!options.is_resumed)
@@ -214,7 +214,7 @@ Continuation opened_results(const CompareOptions& options, const Experiment& exp
       head, options.may_replace);
 }
 
-/// What is repeated must not be overwritten by its repetition.
+/// A repetition must not overwrite the folder that it repeats.
 void expect_other_folder(const CompareOptions& options) {
   if (options.out.empty()) return;
   if (std::filesystem::weakly_canonical(options.out) ==

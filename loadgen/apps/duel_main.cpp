@@ -1,5 +1,5 @@
-// rink duel: two bots who play hosted matches over TCP as people would, each with a client of its
-// own, and say what they saw and what it cost.
+// rink duel: two bots play hosted matches over TCP as people would, each with a client of its own,
+// and report what they saw and what it cost.
 
 #include <array>
 #include <chrono>
@@ -117,7 +117,7 @@ game::ExitStatus play(const Options& options) {
 int main(int count, char** words) {
   game::speak_as("rink-duel");
   game::Flags flags(
-      "Two bots who play hosted matches over TCP as people would: on what their own clients show.",
+      "Two bots play hosted matches over TCP as people would, by what their own clients show.",
       "rink duel");
   flags.version(game::version_line("rink-duel"));
   Options options;

@@ -32,12 +32,12 @@ class JitteredDelay final : public rti::LinkModel {
 
 struct DuelSettings {
   double delay_s = 0.0;    ///< each way
-  double jitter_s = 0.0;   ///< mean of what is added at random, each way
+  double jitter_s = 0.0;   ///< mean of the random part of the delay, each way
   double rate_hz = 60.0;   ///< ticks
   double frame_hz = 60.0;  ///< frames of each client, at phases of their own
   std::uint64_t seed = 1;
-  /// Who plays: one of game::player_kinds() each, on what its own client shows; empty: nobody
-  /// presses anything but who calls client().press().
+  /// The player of each side: one of game::player_kinds(), which plays by what its own client
+  /// shows; empty: only the caller presses keys, by client().press().
   std::array<std::string, 2> players{};
   game::FlowTimes times{};
 };
@@ -50,7 +50,7 @@ class Duel {
 
   static constexpr std::size_t watcher = 2;  ///< the client that plays no bat
 
-  /// Connects client `k` (again), or takes it away: in order, or as kill -9 does.
+  /// Connects client `k` (again), or removes it: in order, or as kill -9 does.
   void connect(std::size_t k);
   void leave(std::size_t k);
   void kill(std::size_t k);
@@ -58,7 +58,7 @@ class Duel {
 
   /// Lets `seconds` pass. After each frame of client k, `watch(k)` is called.
   void run(double seconds);
-  /// Until `condition`, at most `seconds`; whether it was met.
+  /// Runs until `condition`, at most `seconds`; returns whether it was met.
   bool run_until(const std::function<bool()>& condition, double seconds);
   std::function<void(std::size_t)> watch;
 
@@ -93,7 +93,7 @@ class Duel {
   std::array<std::unique_ptr<Client>, 3> clients_;
   std::array<Frames, 3> frames_;
   Frames ticks_;
-  std::vector<std::unique_ptr<Client>> gone_;  ///< whose last bytes may still be under way
+  std::vector<std::unique_ptr<Client>> gone_;  ///< clients whose last bytes may still be under way
 };
 
 }  // namespace rink::loadgen

@@ -1,4 +1,4 @@
-// Notes what is shown, frame by frame, and afterwards plays the record to each of these instants.
+// Notes what is shown, frame by frame, and afterwards replays the record to each of these instants.
 #include "loadgen/duel/feel.h"
 
 #include <algorithm>

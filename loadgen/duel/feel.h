@@ -1,4 +1,4 @@
-// What players are shown of a match over a delayed network, beside the truth, as figures.
+// Compares what players are shown of a match over a delayed network with the true state.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace rink::loadgen {
 
-/// Distances between what was shown and what was true at the instant that was meant [m].
+/// Distances between shown and true positions at the displayed instant [m].
 struct ShownError {
   std::uint64_t count = 0;
   double mean = 0.0, p50 = 0.0, p90 = 0.0, p99 = 0.0, greatest = 0.0;
 };
 
-/// Of both players together.
+/// The figures of both players together.
 struct Feel {
   double played_s = 0.0;             ///< simulated, per player
   ShownError own, other, puck;       ///< at the instant at which each is shown

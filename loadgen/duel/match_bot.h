@@ -1,5 +1,5 @@
-// Somebody who plays a hosted match as a person would: on what the own client shows, with the keys
-// of one hand.
+// A bot that plays a hosted match as a person would: by what its own client shows, with the keys of
+// one hand.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class MatchBot {
   /// `kind` is one of game::player_kinds().
   MatchBot(std::string kind, std::uint64_t seed) : kind_(std::move(kind)), seed_(seed) {}
 
-  /// Decides when it is time to, and presses; to be called before each frame of `match`, at real
-  /// time `now_s`.
+  /// Decides when a decision is due, and presses keys; call it before each frame of `match`, at
+  /// real time `now_s`.
   void act(game::NetworkMatch& match, double now_s);
 
  private:

@@ -1,4 +1,4 @@
-// The table of keys; parameters are keys of their own.
+// The table of keys; each parameter is a key.
 #include "loadgen/experiment/cell_key.h"
 
 #include <algorithm>

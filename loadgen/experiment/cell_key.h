@@ -17,11 +17,11 @@ struct CellKey {
 
 const std::vector<CellKey>& cell_keys();
 
-/// The one called `name`, or null.
+/// The key called `name`, or null.
 const CellKey* key_called(const std::string& name);
 
-/// What names a cell in a line of a table (RFC 4180), its seed apart, and the heading of that; each
-/// ends without a comma.
+/// The columns that name a cell in a line of a table (RFC 4180), without its seed, and their
+/// heading; each ends without a comma.
 std::string cell_csv(const Cell& cell);
 std::string cell_csv_heading();
 

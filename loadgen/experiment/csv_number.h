@@ -1,4 +1,4 @@
-// Numbers as files and messages hold them.
+// Formats numbers for files and messages.
 #pragma once
 
 #include <array>

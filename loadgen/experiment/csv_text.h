@@ -1,11 +1,11 @@
-// Texts as comma-separated files have them.
+// Quotes texts for comma-separated files.
 #pragma once
 
 #include <string>
 
 namespace rink::loadgen {
 
-/// `text`, in quotes if it holds what separates (RFC 4180).
+/// `text`, in quotes if it contains a separator (RFC 4180).
 inline std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

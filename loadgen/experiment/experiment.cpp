@@ -1,4 +1,4 @@
-// The names that experiments and their reports go by.
+// The names in experiments and their reports.
 #include "loadgen/experiment/experiment.h"
 
 #include "game/replication/update_policy.h"

@@ -1,4 +1,4 @@
-// What an experiment file says, and the cells of the matrix it spans.
+// The content of an experiment file, and the cells of the matrix that it spans.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace rink::loadgen {
 
-/// An experiment that cannot be run; the message names file, line, key, what stands there and what
-/// is allowed.
+/// An experiment that cannot be run; the message names file, line, key, the value there and what is
+/// allowed.
 class ExperimentError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,7 +26,7 @@ class BaselineError : public ExperimentError {
   using ExperimentError::ExperimentError;
 };
 
-/// A relevance expression that is none, or that cannot say what is relevant at an instant.
+/// A relevance expression that is faulty, or that cannot decide relevance at an instant.
 class RelevanceError : public ExperimentError {
  public:
   using ExperimentError::ExperimentError;
@@ -51,15 +51,14 @@ enum class Design { matrix, one_at_a_time };
 enum class TransportKind { tcp, udp, shared_memory, virtual_time };
 const char* to_string(TransportKind kind);  ///< as experiments name it
 
-/// What truth calls relevant to a player; h is half the view's side. `rectangle`: an entity whose
-/// box touches the square of half side h around the bat's true centre. `disc`: one whose centre is
-/// within h of it. `contact`: whoever can touch the bat within `contact_s`, or a puck that can
-/// (loadgen/measure/truth/encounters.h). `filter`: whoever an expression of the filters lets
-/// through (loadgen/measure/truth/filter_relevance.h).
+/// The definition of true relevance to a player; h is half the view's side. `rectangle`: an entity
+/// whose box touches the square of half side h around the bat's true centre. `disc`: one whose
+/// centre is within h of it. `contact`: every entity that can touch the bat, or a puck that can
+/// touch it, within `contact_s` (loadgen/measure/truth/encounters.h). `filter`: every entity that
+/// an expression of the filters lets through (loadgen/measure/truth/filter_relevance.h).
 enum class Relevance { rectangle, disc, contact, filter };
 
-/// What a scheme or a client may be told beside its name: one value each in a cell, a list each in
-/// an experiment.
+/// Parameters of a scheme or a client: one value each in a cell, a list each in an experiment.
 struct Parameters {
   double view_fraction = 0.05;  ///< area of the view / area of the field, above 0 to 1
   double view_margin = 0.3;     ///< [m] by which the declared region exceeds the view on each side
@@ -70,8 +69,8 @@ struct Parameters {
   double tick_rate_hz =
       30.0;  ///< ticks of the server per second, 1 to 1000: decisions are as old as their inverse
   double threshold = 0.005;  ///< [m] of the dead-reckoning policies (game::UpdatePolicySettings)
-  bool extrapolates = true;  ///< whether clients show what they are told positions of ahead of the
-                             ///< last; without it `periodic` is the paper's
+  bool extrapolates = true;  ///< whether clients extrapolate entities of which they receive
+                             ///< positions; without it `periodic` is the paper's
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
@@ -81,14 +80,14 @@ inline constexpr const char* peer_mode = "peer-to-peer";
 /// The update policies that the server knows.
 std::vector<std::string> known_policies();
 
-/// The names that an experiment may use; schemes are expressions that the RTI's filters judge
+/// The names that an experiment may use; schemes are expressions that the RTI's filters check
 /// (docs/im.md).
 struct Vocabulary {
   std::vector<std::string> modes{"client-server", peer_mode};
   std::vector<std::string> policies = known_policies();
 };
 
-/// What ratios refer to: the cell that is the same but for what is named.
+/// The baseline of ratios: the cell that differs only in what is named here.
 struct Baseline {
   std::string scheme = "none", policy = "periodic";  ///< empty: each cell's own
   std::vector<std::pair<std::string, std::string>>
@@ -106,17 +105,17 @@ struct Experiment {
   std::vector<std::string> policies{"periodic"};
   std::vector<std::uint32_t> clients{10};
   std::vector<std::uint64_t> seeds{1};
-  double start_s = 0.0;     ///< [s] of the game played before a run begins, without its network and
-                            ///< measured by nobody; 0 to 600
+  double start_s = 0.0;     ///< [s] of the game played before a run begins, without network and
+                            ///< measurement; 0 to 600
   double duration_s = 3.0;  ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;   ///< [s] played but not measured; 0 to 600
   std::vector<double> view_fractions{0.05}, view_margins{0.3}, sweep_ticks{0.0}, cell_sizes{0.0},
       tick_rates_hz{30.0};                                   ///< see Parameters, and parameter.h
   std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< see Parameters, and parameter.h
   std::vector<std::uint32_t> pucks{0},
-      bats{0};  ///< so many on the scene's own field; 0: as many as the scene has
+      bats{0};  ///< number on the scene's own field; 0: the scene's number
   double view_area =
-      0.0;  ///< of a client's view [m^2], whatever the field's; 0: as view_fraction says
+      0.0;  ///< of a client's view [m^2], for any field; 0: view_fraction decides
   TransportKind transport = TransportKind::tcp;
   double delay_ms =
       10.0;  ///< one way, in virtual time; 0 to 10,000; with a network the greater of its latencies
@@ -124,21 +123,22 @@ struct Experiment {
                                    ///< Without [network] `delay_ms` and nothing else
   bool network_is_modelled = false, network_carries_datagrams = false;
   std::string players =
-      "random";  ///< who presses the keys: a kind of player, or the path of a recorded key log
+      "random";  ///< the source of keys: a kind of player, or the path of a recorded key log
   std::string
       players_as_named{};  ///< the path of the log as the file has it; empty for a kind of player
   Relevance relevance = Relevance::rectangle;
   double contact_s = 0.5;  ///< [s] of `contact`; above 0 to 10
   std::string
       relevant{};  ///< of `filter`: the expression, in which im::fault_in_momentary finds nothing
-  std::vector<std::string> also_relevant;  ///< beside that area: `team`, bats of the player's side;
-                                           ///< `always`, what is always relevant
+  std::vector<std::string> also_relevant;  ///< relevant besides: `team`, bats of the player's side;
+                                           ///< `always`, kinds that are always relevant
   std::vector<std::string> always;  ///< kinds of bodies that are always relevant; none: as the
                                     ///< scene has it (game::relevant_kinds_of)
-  /// What ratios refer to; read from a file that compares neither: the first of its lists; empty
-  /// beside a table of others that does not name them.
+  /// The baseline of ratios; by default the first of the file's lists, but empty beside a table of
+  /// other baseline keys that does not name them.
   std::string baseline_scheme = "none", baseline_policy = "periodic";
-  std::vector<std::pair<std::string, std::string>> baseline_others{};  ///< what else of it is named
+  std::vector<std::pair<std::string, std::string>> baseline_others{};  ///< other keys of the
+                                                                       ///< baseline
   Baseline baseline() const { return {baseline_scheme, baseline_policy, baseline_others}; }
   std::vector<std::uint32_t> server_cores{1};  ///< 1: the server on a processor of its own, the
                                                ///< bots on the others; 2: both wherever they like
@@ -148,20 +148,20 @@ struct Experiment {
   std::string text;                                                    ///< the file as read
   double measured_from_s() const { return start_s + warm_up_s; }       ///< of the game [s]
   double end_s() const { return start_s + (warm_up_s + duration_s); }  ///< of the game [s]
-  /// Of an experiment of several parts: each is one of its own, with the same name, scene and
-  /// baseline and all that it does not say otherwise. The cells are theirs.
+  /// The parts of an experiment of several: each is an experiment with the same name, scene and
+  /// baseline, and every key that it does not set itself. The cells are those of the parts.
   std::vector<Experiment> parts{};
   std::string part{};         ///< of a part: its name
   bool is_of_curves = false;  ///< of a part: its cells are points of curves along which rivals are
                               ///< compared at equal error, and rows of no table
 };
 
-/// That of the experiment's parts which `cell` is of; itself if it has none.
+/// The part of the experiment that `cell` belongs to; the experiment itself if it has no parts.
 const Experiment& part_of(const Experiment& experiment, const std::string& part);
 
 /// Name of the file of a report folder that holds the recorded key log which its experiment calls
-/// `as_named`. An experiment takes such a file of its own folder before the one that it names, so
-/// that a report is complete wherever it goes.
+/// `as_named`. An experiment prefers such a file in its own folder to the one that it names, so
+/// that a copied report is complete.
 std::string kept_log_name(const std::string& as_named);
 
 /// One point of the matrix: one start of a server and its bots.
@@ -180,31 +180,31 @@ struct Cell {
 /// what their scheme does not have run once.
 std::vector<Cell> cells_of(const Experiment& experiment);
 
-/// `cell` without the parameters that its scheme does not have: the size of cells is for schemes
-/// that have some, and with `none` neither margin nor sweep changes anything.
+/// `cell` without the parameters that its scheme ignores: a cell size is for schemes with cells,
+/// and with `none` neither margin nor sweep changes anything.
 Cell without_idle_parameters(Cell cell);
 
-/// What all replications of a cell have in common.
+/// The cell common to all its replications.
 inline Cell without_seed(Cell cell) {
   cell.seed = 0;
   return cell;
 }
 
-/// How its policy is called: `periodic` without extrapolation is `periodic (paper)`.
+/// The name of the cell's policy: `periodic` without extrapolation is `periodic (paper)`.
 std::string policy_name(const Cell& cell);
 
-/// The cell that the ratios of `cell` refer to: the same but for what `baseline` names.
+/// The cell that the ratios of `cell` refer to: it differs only in what `baseline` names.
 Cell baseline_of(Cell cell, const Baseline& baseline);
-/// The same but for `scheme` and `policy`, each its own where that is empty.
+/// `cell` with another scheme and policy; an empty text keeps its own.
 Cell baseline_of(Cell cell, const std::string& scheme, const std::string& policy);
 
-/// The one of `cells` that the ratios of `cell` refer to; of parameters that `cell` lacks and the
-/// baseline has, the first value that is among them. Seeds must agree.
+/// The one of `cells` that the ratios of `cell` refer to; of a parameter that `cell` lacks and the
+/// baseline has, the first value among `cells` counts. Seeds must agree.
 std::optional<Cell> baseline_among(std::span<const Cell> cells, const Cell& cell,
                                    const Baseline& baseline);
 
-/// Seeded by each replication: the order in which `cells_of(experiment)` run, so that no cell
-/// always follows the same other, and whole replications still come one after the other, part by
+/// The order in which `cells_of(experiment)` run, shuffled by the seed of each replication so that
+/// no cell always follows the same other; replications still follow one after the other, part by
 /// part.
 std::vector<Cell> running_order(const Experiment& experiment);
 
@@ -212,8 +212,8 @@ std::vector<Cell> running_order(const Experiment& experiment);
 /// is not the default, `...-30-pucks500-margin0.5-seed1`. No two cells of an experiment share a
 /// name.
 std::string name_of(const Cell& cell);
-/// What of this name is neither seed nor default in words for a reader, e.g. "500 pucks, margin 0.5
-/// m"; empty if all is default.
+/// The part of this name that is neither seed nor default, in words for a reader, e.g. "500 pucks,
+/// margin 0.5 m"; empty if all is default.
 std::string variant_of(const Cell& cell);
 
 /// The name of the game that `cell` plays; cells with the same name play the very same one, as long

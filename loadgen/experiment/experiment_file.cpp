@@ -1,4 +1,4 @@
-// Reads them key by key, so that every complaint names its line.
+// Reads experiments key by key, so that every error names its line.
 #include "loadgen/experiment/experiment_file.h"
 
 #include <algorithm>
@@ -157,8 +157,8 @@ void expect_baseline(const ExperimentReader& reader, const Experiment& experimen
                           (key ? "no value of that key" : "allowed are " + game::listed(names)));
   }
   const std::vector<Cell> cells = cells_of(experiment);
-  // A cell that lacks a parameter is the partner of all of its values, and so of one that is not
-  // there at all.
+  // A cell that lacks a parameter is the baseline partner of all its values, and of a value that
+  // does not occur.
   for (const auto& [name, value] : experiment.baseline_others) {
     const auto has_it = [&name = name, &value = value](const Cell& cell) {
       Cell with_it = cell;
@@ -173,8 +173,8 @@ void expect_baseline(const ExperimentReader& reader, const Experiment& experimen
     throw BaselineError(file + ": baseline: no cell of the experiment is " + baseline.words());
 }
 
-/// What belongs to a kind of relevance that none of `experiment`'s cells is judged by was meant
-/// otherwise; that of another part may be left to the whole.
+/// Refuses a key for a kind of relevance that no cell of `experiment` uses; a key for a part's kind
+/// may stand in the whole.
 void expect_use_of_relevance(const ExperimentReader& reader, const Experiment& experiment,
                              const std::string& file) {
   const auto is_used = [&experiment](Relevance relevance) {
@@ -199,7 +199,7 @@ bool is_part_name(const std::string& name) {
   });
 }
 
-/// What peers do not do, so that nobody waits for cells that cannot run.
+/// Refuses what peers cannot do, before cells run that would fail.
 void expect_what_peers_can(const Experiment& experiment, const std::string& file) {
   const auto has = [](const auto& list, const auto& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
@@ -268,7 +268,7 @@ Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& 
 
 namespace {
 
-/// What a part says, and what the experiment says where it does not.
+/// A part with its own keys, and those of the whole experiment where it has none.
 Experiment part_in(ExperimentReader& reader, const Experiment& whole,
                    const std::filesystem::path& file, const Vocabulary& vocabulary) {
   Experiment result;

@@ -11,7 +11,7 @@ namespace rink::loadgen {
 /// Reads `file`. Throws ExperimentError.
 Experiment load_experiment(const std::filesystem::path& file, const Vocabulary& vocabulary);
 
-/// The same from `text`; `file` is named in errors, and a scene given as a path is relative to its
+/// Reads from `text`; `file` is named in errors, and a scene given as a path is relative to its
 /// folder. Throws ExperimentError.
 Experiment parse_experiment(std::string_view text, const std::filesystem::path& file,
                             const Vocabulary& vocabulary);

@@ -21,8 +21,8 @@ void read_fraction(ExperimentReader& reader, const char* key, double& into) {
   reader.number(key, into, "a number from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; });
 }
 
-/// `loss` alone is lost packet by packet; with `burst` in runs of so many in the mean; with the
-/// four probabilities of the chain as these say.
+/// `loss` alone means independent losses, with `burst` runs of that mean length; `gilbert_elliott`
+/// gives the four probabilities of the chain.
 void read_loss(ExperimentReader& reader, rti::PacketLoss& into) {
   if (auto chain = reader.table("gilbert_elliott")) {
     if (reader.has("loss") || reader.has("burst"))
@@ -61,8 +61,8 @@ void read_link(ExperimentReader& reader, rti::LinkConditions& into) {
     into.queue_bytes = static_cast<std::size_t>(*queue);
 }
 
-/// `up` is what clients send, `down` what the server sends; what neither says is as it is for both,
-/// and what nobody says stays as it was.
+/// `up` is for what clients send, `down` for what the server sends; the table's own keys are for
+/// both, and missing keys keep their defaults.
 void read_directions(ExperimentReader& reader, rti::LinkConditions& up, rti::LinkConditions& down) {
   for (rti::LinkConditions* direction : {&up, &down}) read_link(reader, *direction);
   const auto read = [&reader](const char* key, rti::LinkConditions& into) {

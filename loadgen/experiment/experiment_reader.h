@@ -1,5 +1,5 @@
-// Takes the keys of an experiment's tables one by one, so that every complaint names file, line,
-// key and what is allowed.
+// Takes the keys of an experiment's tables one by one, so that every error names file, line, key
+// and what is allowed.
 #pragma once
 
 #include <toml++/toml.h>
@@ -32,11 +32,11 @@ inline std::string written(const toml::node& node) {
 /// Takes known keys out of a table one by one; what is left in the end is unknown.
 class ExperimentReader {
  public:
-  /// `prefix` stands before keys in complaints: the name of a table and a dot.
+  /// `prefix` precedes keys in errors: the name of a table and a dot.
   ExperimentReader(const toml::table& table, std::string file, std::string prefix = "")
       : table_(table), file_(std::move(file)), prefix_(std::move(prefix)) {}
 
-  /// What is not in the table is looked for in `other`, which outlives this.
+  /// Keys that the table lacks are taken from `other`, which outlives this.
   void fall_back_on(const toml::table& other) { others_ = &other; }
 
   std::string required_text(const char* key) {
@@ -58,8 +58,8 @@ class ExperimentReader {
               });
   }
 
-  /// Texts that `complaint` says nothing against; what it says stands in place of what is allowed.
-  /// No two of them `are_alike`.
+  /// Texts for which `complaint` returns nothing; its text replaces the list of allowed values in
+  /// the error. No two of them `are_alike`.
   void judged(const char* key, std::vector<std::string>& into,
               const std::function<std::optional<std::string>(const std::string&)>& complaint,
               const std::function<bool(const std::string&, const std::string&)>& are_alike) {
@@ -110,7 +110,7 @@ class ExperimentReader {
               });
   }
 
-  /// A text that may be missing; `is_allowed` judges it.
+  /// A text that may be missing; `is_allowed` checks it.
   void text(const char* key, std::string& into, const std::string& allowed,
             const std::function<bool(const std::string&)>& is_allowed) {
     const toml::node* node = take(key);
@@ -120,8 +120,8 @@ class ExperimentReader {
     into = *value;
   }
 
-  /// An expression that says what is relevant at an instant; it may be missing. Throws
-  /// RelevanceError, which says at which of its characters the fault is.
+  /// An expression that decides relevance at an instant; it may be missing. Throws RelevanceError,
+  /// which names the character of the fault.
   void momentary(const char* key, std::string& into) {
     const toml::node* node = take(key);
     if (!node) return;
@@ -157,7 +157,7 @@ class ExperimentReader {
     refuse(key, *node, "one of " + game::listed(words));
   }
 
-  /// The whole number of `key`, if it is there.
+  /// The whole number of `key`, if that exists.
   std::optional<std::int64_t> whole_number(const char* key, std::int64_t least, std::int64_t most) {
     const toml::node* node = take(key);
     if (!node) return std::nullopt;
@@ -169,7 +169,7 @@ class ExperimentReader {
   }
 
   /// The keys of a table below this one with their values as texts, in the order of the keys; none
-  /// if it is not there.
+  /// if there is no such table.
   std::vector<std::pair<std::string, std::string>> texts_of(const char* key) {
     const toml::node* node = take(key);
     std::vector<std::pair<std::string, std::string>> texts;
@@ -191,14 +191,14 @@ class ExperimentReader {
     return texts;
   }
 
-  /// A table below this one, to be read key by key; nothing if it is not there.
+  /// A table below this one, to be read key by key; nothing if there is none.
   std::optional<ExperimentReader> table(const char* key) {
     const toml::node* node = take(key);
     if (!node) return std::nullopt;
     if (!node->is_table()) refuse(key, *node, "a table");
     return ExperimentReader(*node->as_table(), file_, prefix_ + key + ".");
   }
-  /// One for each table of a list; none if it is not there.
+  /// A reader for each table of a list; none if there is no list.
   std::vector<ExperimentReader> tables(const char* key) {
     const toml::node* node = take(key);
     std::vector<ExperimentReader> readers;
@@ -211,13 +211,13 @@ class ExperimentReader {
   bool has(const char* key) const {
     return table_.contains(key) || (others_ != nullptr && others_->contains(key));
   }
-  /// Complains about the table as a whole.
+  /// Throws an error about the table as a whole.
   [[noreturn]] void refuse_all(const std::string& why) const {
     throw ExperimentError(place(table_.source().begin.line) +
                           prefix_.substr(0, prefix_.size() - !prefix_.empty()) + ": " + why);
   }
 
-  /// Complains about `key` if this very table has it.
+  /// Throws an error about `key` if this table itself has it.
   void refuse_idle(const char* key, const std::string& why) const {
     if (const toml::node* node = table_.get(key))
       throw ExperimentError(place(node->source().begin.line) + prefix_ + key + " = " +

@@ -1,4 +1,4 @@
-// The matrix that an experiment spans, and how its points are called.
+// The matrix that an experiment spans, and the names of its points.
 #include <algorithm>
 #include <iterator>
 #include <string_view>
@@ -14,8 +14,8 @@
 namespace rink::loadgen {
 namespace {
 
-/// Judged before what its scheme lacks is taken out of the cell, or one that differs in nothing
-/// would come with every value of what it lacks.
+/// Called before the parameters that the scheme ignores are removed from the cell, or a cell would
+/// occur once for every value of an ignored parameter.
 bool is_in_design(const Experiment& experiment, const Cell& cell) {
   const int moved =
       moved_parameters(experiment, cell.parameters) + (cell.clients != experiment.clients.front()) +
@@ -23,14 +23,14 @@ bool is_in_design(const Experiment& experiment, const Cell& cell) {
   return experiment.design == Design::matrix || moved <= 1;
 }
 
-/// What of a cell differs from the default, as (short name, value, words around the value).
+/// A difference of a cell from the default, as (short name, value, words around the value).
 struct Variation {
   const char* name;
   std::string value;
   const char *before, *after;
 };
 
-/// Positions shown where they were told, as in the paper: the policy's name says so.
+/// True if positions are shown as received, as in the paper, which the policy's name shows.
 bool is_paper(const Cell& cell) {
   return cell.policy == "periodic" && !cell.parameters.extrapolates;
 }
@@ -109,7 +109,7 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
       std::ranges::copy(cells_of(part), std::back_inserter(all));
     return all;
   }
-  std::vector<Cell> games;  // all that is outside of what is compared
+  std::vector<Cell> games;  // all keys that are not compared
   for (const std::uint64_t seed : experiment.seeds)
     for (const std::uint32_t clients : experiment.clients)
       for (const std::uint32_t pucks : experiment.pucks)

@@ -1,5 +1,5 @@
-// The numbers that a cell may be told beside its scheme, each described once: for whoever reads,
-// sweeps, names, writes or draws them.
+// The numeric parameters of a cell, each described once for reading, sweeping, naming, writing and
+// drawing.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ namespace rink::loadgen {
 /// parameter.cpp; experiments, cell names, tables, CSV columns, assertions and plots follow.
 struct ParameterKind {
   const char* key;      ///< in experiments, CSV columns and assertions
-  const char* allowed;  ///< in words, for complaints
+  const char* allowed;  ///< in words, for errors
   bool (*is_allowed)(double);
   bool is_whole;
   double (*of)(const Parameters&);
@@ -23,36 +23,36 @@ struct ParameterKind {
   bool (*has)(const Cell& cell);            ///< whether a run of `cell` depends on it
   const char *short_name, *before, *after;  ///< in a cell's name, and in words around its value
   const char *axis,
-      *column;   ///< what a plot calls it, with its unit, and a table in at most nine letters
+      *column;   ///< its name in plots, with its unit, and in tables, in at most nine letters
   double scale;  ///< from its own unit to that of `axis` and `column`
   bool is_switch = false;  ///< 1 or 0, which experiments write true and false
 };
 
-/// False of the scheme that lets everything through: its clients declare no regions, and nothing
-/// that is about regions changes anything.
+/// False of the scheme that lets everything through: its clients declare no regions, so parameters
+/// of regions have no effect.
 bool has_regions(const Cell& cell);
 
 /// All, in the order of their columns.
 std::span<const ParameterKind> parameter_kinds();
 
-/// `value` as names and tables show it: the fewest digits that mean it.
+/// `value` as names and tables show it: the fewest digits that identify it.
 std::string shortest(double value);
 
-/// Those of which `experiment` lists several values.
+/// The parameters of which `experiment` lists several values.
 std::vector<const ParameterKind*> swept_parameters(const Experiment& experiment);
 
 /// Every combination of the listed values, the last parameter's innermost.
 std::vector<Parameters> parameters_of(const Experiment& experiment);
 
-/// Whether each parameter that the scheme of `cell` has is the first of its list, `except` left
-/// aside.
+/// True if each parameter that the scheme of `cell` uses, but for `except`, is the first of its
+/// list.
 bool is_at_first_values(const Experiment& experiment, const Cell& cell,
                         const ParameterKind* except = nullptr);
 
 /// The parameter's value in the unit of `axis`; a cell size of 0 reads "chosen".
 std::string value_text(const ParameterKind& kind, const Cell& cell);
 
-/// How many of the listed parameters are not the first of their list.
+/// The number of parameters that differ from the first of their list.
 int moved_parameters(const Experiment& experiment, const Parameters& own);
 
 }  // namespace rink::loadgen

@@ -1,4 +1,4 @@
-// What an experiment would do, said without doing it.
+// Describes what an experiment would run, for --dry-run.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,9 @@
 namespace rink::loadgen {
 
 /// About how long one cell takes [s]: the play itself, and a second for start, joining and reports;
-/// in virtual time nobody knows before the first.
+/// in virtual time that is unknown before the first has run.
 double expected_cell_s(const Experiment& experiment);
-/// The same of one of its cells.
+/// The expected time of one of its cells [s].
 double expected_cell_s(const Experiment& experiment, const Cell& cell);
 
 /// The cells in order with the time at which each starts, the total, and the files and limits that

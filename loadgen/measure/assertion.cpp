@@ -26,7 +26,7 @@ namespace {
 using Node = AssertionNode;
 using Kind = Node::Kind;
 
-/// Which value of a statistic a name ends in.
+/// The value of a statistic that a name's ending selects.
 using Part = std::optional<double> (*)(const Statistic&);
 constexpr std::array<std::pair<const char*, Part>, 6> parts{
     {{"", [](const Statistic& s) { return s.mean; }},
@@ -180,7 +180,7 @@ Truth truth_of(Kind comparison, double left, double right) {
   }
 }
 
-/// What is undefined counts only if the rest does not decide (Kleene's strong logic: `and` is the
+/// An undefined part counts only if the rest does not decide (Kleene's strong logic: `and` is the
 /// lesser of two, `or` the greater).
 Truth truth_of(const Node& node, const Values& values) {
   assert(node.is_true_or_false());

@@ -1,4 +1,4 @@
-// What a user demands of a comparison, e.g. `down_bytes_per_client_per_s[scheme=none] /
+// A user's assertion about a comparison, e.g. `down_bytes_per_client_per_s[scheme=none] /
 // down_bytes_per_client_per_s[scheme=region] >= 20`.
 #pragma once
 
@@ -34,7 +34,7 @@ class Assertion {
 
   const std::string& text() const { return text_; }
 
-  /// How it turned out.
+  /// The result of an assertion.
   struct Finding {
     bool holds = false;
     std::string words;  ///< a line for each choice of cells: whether it holds, and the values of

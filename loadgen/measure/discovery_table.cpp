@@ -1,4 +1,4 @@
-// Reads what the runs left, merges it by cell, writes lines.
+// Reads the delays that runs recorded, merges them by cell, writes lines.
 #include "loadgen/measure/discovery_table.h"
 
 #include <algorithm>

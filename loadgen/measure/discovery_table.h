@@ -13,21 +13,21 @@
 namespace rink::loadgen {
 
 struct CellDiscoveries {
-  Cell cell;  ///< its seed means nothing
+  Cell cell;  ///< its seed is unused
   Discoveries discoveries;
 };
 
 /// The points of a curve in the table and in plots.
 inline constexpr std::size_t discovery_points_max = 200;
 
-/// Where the delays of the run of `cell` are kept for when an interrupted campaign goes on:
+/// The file that keeps the delays of the run of `cell` for a campaign that is continued:
 /// NAME.discovery.json in `cells`.
 std::filesystem::path discovery_file(const std::filesystem::path& cells, const Cell& cell);
 /// Throws OutputError.
 void write_discoveries(const std::filesystem::path& file, const Discoveries& discoveries);
 
-/// Those of the valid `runs` of which `cells` has a file, pooled over replications, in the order of
-/// the runs; whatever is missing or unreadable is left out.
+/// The delays of the valid `runs` of which `cells` has a file, pooled over replications, in the
+/// order of the runs; missing or unreadable files are left out.
 std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells,
                                             std::span<const RunRecord> runs);
 

@@ -33,8 +33,8 @@ LogPoint between(const LogPoint& a, const LogPoint& b, double part) {
           std::lerp(a.wire, b.wire, part)};
 }
 
-/// One setting's error and bytes with a recall of at least `recall`: its smallest margin if that is
-/// enough already.
+/// One setting's error and bytes at a recall of at least `recall`: those of its smallest margin if
+/// that is enough already.
 std::optional<LogPoint> at_recall(std::vector<RivalPoint> margins, double recall) {
   assert(!margins.empty());
   std::ranges::sort(margins, {}, &RivalPoint::margin);
@@ -58,7 +58,7 @@ std::vector<LogPoint> settings_at_recall(std::span<const RivalPoint> points, dou
   return found;
 }
 
-/// Those that no other beats in both, by ascending error and descending bytes.
+/// The points that no other beats in both error and bytes, by ascending error and descending bytes.
 std::vector<LogPoint> frontier(std::vector<LogPoint> points, double LogPoint::*bytes) {
   std::ranges::sort(points, [bytes](const LogPoint& a, const LogPoint& b) {
     return std::pair(a.error, a.*bytes) < std::pair(b.error, b.*bytes);
@@ -86,7 +86,7 @@ std::pair<double, End> bytes_at(const std::vector<LogPoint>& points, double erro
           End::bracketed};
 }
 
-/// Of two seeds' ends the one that says less.
+/// The less informative of two seeds' ends.
 End worse(End a, End b) {
   if (a == End::not_reached || b == End::not_reached) return End::not_reached;
   return a == End::not_left ? a : b;
@@ -104,7 +104,7 @@ std::optional<RivalPoint> point_of(const RunRecord& run) {
                     *payload,         *wire};
 }
 
-/// What all policies that are compared have in common.
+/// The conditions common to all compared policies.
 using Conditions = std::tuple<std::string, double, std::string, std::uint32_t, std::uint32_t,
                               std::uint32_t, double, double>;
 
@@ -235,7 +235,7 @@ std::string trimmed(std::string line) {
   return line;
 }
 
-/// What the marks mean, those that are in the table.
+/// Explains the marks that occur in the table.
 std::string explanation(std::span<const EqualError> comparisons) {
   const auto any = [comparisons](const auto& holds) {
     return std::ranges::any_of(comparisons, [&holds](const EqualError& each) {

@@ -1,5 +1,5 @@
-// What rivals send at the displayed error and the recall of the policy that they are compared with,
-// interpolated along each one's own settings (docs/metrics.md, "Equal error").
+// The bytes that rival policies send at the displayed error and the recall of the compared policy,
+// interpolated along each rival's own settings (docs/metrics.md, "Equal error").
 #pragma once
 
 #include <algorithm>
@@ -26,11 +26,11 @@ struct RivalPoint {
   double payload = 0.0, wire = 0.0;  ///< bytes per client and second; above 0
 };
 
-/// What a policy sends at a recall and an error, or why that cannot be told.
+/// The bytes that a policy sends at a recall and an error, or why they cannot be determined.
 struct AtEqualError {
   enum class End : std::uint8_t {
     bracketed,    ///< settings on both sides of the error were run
-    not_reached,  ///< no setting that was run has so small an error with that recall
+    not_reached,  ///< no setting among the runs has so small an error at that recall
     not_left      ///< none that errs more sends less: an upper bound, for a coarser one may do
   };
   double payload = 0.0, wire = 0.0;
@@ -39,7 +39,7 @@ struct AtEqualError {
   std::size_t points_below = 0, points_above = 0;
 };
 
-/// With fewer points on a side of the error, a curve's course there is hardly known.
+/// With fewer points on one side of the error, the curve is uncertain there.
 inline constexpr std::size_t points_wanted = 5;
 
 /// The least that settings along `points` send with a recall of at least `recall` and a displayed
@@ -64,7 +64,8 @@ struct EqualError {
   std::string mode, scheme, subject;
   std::uint32_t clients = 0;
   double delay_ms = 0.0, rate_hz = 0.0;
-  bool is_own_recall = false;  ///< that of the subject without a margin; else the recall asked for
+  bool is_own_recall = false;  ///< the recall is that of the subject without a margin; else the
+                               ///< requested one
   double recall = 0.0, error_mm = 0.0, payload = 0.0,
          wire = 0.0;  ///< of the subject, means over seeds
   std::vector<RivalRatio>

@@ -112,7 +112,7 @@ std::string exponent_text(const PowerFit& fit) {
   return formatted("%5.2f +-%-4.2f%c", fit.exponent, half, fit.is_rejected() ? '!' : ' ');
 }
 
-/// What the terminal's table has room for.
+/// The quantities that the terminal's table has room for.
 std::span<const Quantity> tabled() { return std::span(quantities).first(quantities.size() - 2); }
 
 std::string row_title(const Growth& growth) {

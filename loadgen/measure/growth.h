@@ -1,4 +1,4 @@
-// How a tick's cost and the bytes grow with clients, pucks and bats, read off the runs of an
+// The growth of a tick's cost and of bytes with clients, pucks and bats, from the runs of an
 // experiment.
 #pragma once
 
@@ -58,8 +58,8 @@ struct Capacity {
 /// One for each scheme and policy whose clients grow and of which such a percentile is known.
 std::vector<Capacity> capacities_of(std::span<const Growth> growths);
 
-/// The same in words, a line each; empty if there is none. Beyond what ran it is an extrapolation,
-/// and says so.
+/// The capacities in words, a line each; empty if there is none. A capacity beyond the runs is
+/// marked as an extrapolation.
 std::string capacity_text(std::span<const Growth> growths);
 
 /// As text for a terminal, at most 100 columns; empty if there is none.

@@ -1,4 +1,4 @@
-// Turns the two processes' reports into rates per client, and says why a run does not count.
+// Turns the two processes' reports into rates per client, and finds why a run does not count.
 #include "loadgen/measure/judge_run.h"
 
 #include <algorithm>
@@ -18,14 +18,14 @@ namespace report = game::report;
 
 constexpr double count_mismatch_max = 0.01;
 constexpr double in_flight_bytes_max =
-    128.0;  // per client: last words that the kernel has not seen acknowledged; where nearly
-            // nothing is sent they exceed 1 %
+    128.0;  // per client: last bytes that the kernel has not seen acknowledged, which exceed 1 %
+            // where nearly nothing is sent
 
-/// A report, which another process wrote: whatever is missing or of another type is noted once and
+/// Reads a report of another process: a missing value or one of another type is noted once and
 /// reads as absent.
 class ReportReader {
  public:
-  /// `accepts_null`: what is null could not be measured, and that is no complaint.
+  /// `accepts_null`: null stands for a value that could not be measured, which is no error.
   ReportReader(const nlohmann::json& report, std::string who, bool accepts_null,
                std::vector<std::string>& complaints)
       : report_(report),
@@ -40,7 +40,7 @@ class ReportReader {
       return value->get<double>();
     return complain(key, "a number that is not negative");
   }
-  /// For figures that a run may do without: absent or of another type is no complaint.
+  /// For optional figures: a missing value or one of another type is no error.
   std::optional<double> if_there(game::AmountField key) {
     const nlohmann::json* value = find(key);
     return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
@@ -141,7 +141,7 @@ std::optional<double> per(std::optional<double> amount, std::optional<double> di
   return *amount / *divisor;
 }
 
-/// What one process sent on its connections.
+/// The amounts that one process sent on its connections.
 struct Sent {
   std::optional<double> bytes, segments, acknowledgements;
 
@@ -199,8 +199,8 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
                                        per(by_bots.acknowledgements, bots_measured_s));
 }
 
-/// A server's node is the server, through which everything goes; peers say what the busiest of them
-/// bore.
+/// The busiest node is the server where there is one, since all traffic passes it; peers report
+/// that of the busiest peer.
 void fill_nodes(RunRecord& record, ReportReader& server) {
   const bool are_peers = record.cell.mode == peer_mode;
   const auto down = server.if_there(report::bytes_sent),
@@ -242,8 +242,8 @@ void fill_from_bots(RunRecord& record, ReportReader& bots) {
   record.truth.fairness_jain = jain_index(bots.if_there(report::bytes_received_by_bot));
 }
 
-/// Whether the server has the planned keys itself and applies each at its instant, so that the game
-/// and its traffic are the same however late bots send theirs.
+/// True if the server has the planned keys itself and applies each at its instant, so that late
+/// bots change neither the game nor its traffic.
 bool is_plan_applied(const RunRecord& record) {
   return record.keys == "replay" && record.cell.mode != peer_mode;
 }
@@ -261,7 +261,7 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
   expect_none("clients lost by the bots", bots(report::federates_lost), complaints);
   if (!record.keys_trouble.empty() && !is_plan_applied(record))
     complaints.push_back("the bots could not keep their schedule: " + record.keys_trouble);
-  // Through shared memory no byte goes by the kernel, which has nothing to say then.
+  // Shared memory bypasses the kernel, which has no counts then.
   if (record.transport != "shm") {
     compare_counts("sent by the server", server(report::total_bytes_sent),
                    server(report::kernel_bytes_sent), record.cell.clients, complaints);

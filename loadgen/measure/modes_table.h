@@ -1,5 +1,5 @@
-// Modes side by side: what is carried for each client and for what, and what the busiest node
-// bears.
+// A table of modes side by side: bytes for each client by purpose, and the load of the busiest
+// node.
 #pragma once
 
 #include <span>

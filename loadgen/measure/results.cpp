@@ -1,4 +1,4 @@
-// Writes results so that a full disk or a read-only folder is noticed when it happens.
+// Writes results so that a full disk or a read-only folder is noticed at once.
 #include "loadgen/measure/results.h"
 
 #include <fcntl.h>
@@ -110,7 +110,8 @@ std::filesystem::path cleared(const std::filesystem::path& path, bool may_replac
       throw OutputError((path / name).string() +
                         ": already there; choose another --out, go on with --resume, or replace "
                         "the results with --force");
-    std::error_code ignored;  // what cannot be removed cannot be written either and is noticed then
+    std::error_code ignored;  // a file that cannot be removed cannot be written either, which is
+                              // noticed then
     std::filesystem::remove(path / name, ignored);
   }
   return path / "runs.jsonl";

@@ -1,4 +1,4 @@
-// The folder that an experiment's results go to.
+// The folder for an experiment's results.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,14 @@ std::filesystem::path free_directory(const std::filesystem::path& parent);
 /// neither kill -9 nor a loss of power takes more than the last.
 class LineFile {
  public:
-  /// Keeps the first `kept_bytes` of what is there. Throws OutputError, also if another process has
-  /// the file open here.
+  /// Keeps the first `kept_bytes` of the file. Throws OutputError, also if another process has the
+  /// file open here.
   LineFile(std::filesystem::path path, std::size_t kept_bytes);
   ~LineFile();
   LineFile(LineFile&& other) noexcept;
   LineFile& operator=(LineFile&&) = delete;
-  /// `line` without its end. Throws OutputError; whatever was written of the line is taken back if
-  /// the system lets it be.
+  /// Appends `line`, given without its end. Throws OutputError; a partly written line is removed if
+  /// the system allows it.
   void append(std::string line);
 
  private:
@@ -44,20 +44,20 @@ class LineFile {
 /// A folder with runs.jsonl, which grows run by run, and files that are written whole.
 class ResultsDirectory {
  public:
-  /// Makes `path` if it is not there. Throws OutputError if it cannot be made or written, or if it
-  /// already holds results and `may_replace` is false; otherwise starts an empty runs.jsonl and
+  /// Makes `path` if it does not exist. Throws OutputError if it cannot be made or written, or if
+  /// it already holds results and `may_replace` is false; otherwise starts an empty runs.jsonl and
   /// removes older results.
   ResultsDirectory(const std::filesystem::path& path, bool may_replace);
 
-  /// Goes on with the first `whole_bytes` of the runs.jsonl in `path` and drops the rest. Throws
+  /// Continues with the first `whole_bytes` of the runs.jsonl in `path` and drops the rest. Throws
   /// OutputError.
   static ResultsDirectory resumed(const std::filesystem::path& path, std::size_t whole_bytes);
 
   const std::filesystem::path& path() const { return path_; }
-  /// `path()/name`, made if it is not there. Throws OutputError.
+  /// `path()/name`, made if it does not exist. Throws OutputError.
   std::filesystem::path subdirectory(const std::string& name) const;
-  /// The line that is to stand before the first run; it is not written before that, so that a
-  /// folder without a run stays free.
+  /// Sets the line to write before the first run; it is not written earlier, so that a folder
+  /// without a run stays free.
   void set_head(const nlohmann::ordered_json& head);
   /// Adds a line to runs.jsonl, on the disk when this returns. Throws OutputError.
   void append(const RunRecord& record);

@@ -1,4 +1,4 @@
-// A record as JSON and back, by its list of fields.
+// Writes a record as JSON and reads it back, by its list of fields.
 #include "loadgen/measure/run_fields.h"
 
 #include <limits>
@@ -8,7 +8,7 @@
 namespace rink::loadgen {
 namespace {
 
-/// Writes what visit_fields() names; absent figures become null.
+/// Writes the fields that visit_fields() visits; absent figures become null.
 class LineWriter {
  public:
   template <class Value>

@@ -1,5 +1,5 @@
-// The keys of a line of runs.jsonl, once, in the order of the line: for whoever writes one, reads
-// one or lists them.
+// The keys of a line of runs.jsonl, defined once in the order of the line, for writing, reading and
+// listing them.
 #pragma once
 
 #include <concepts>
@@ -134,9 +134,8 @@ void visit_fields(Line& line, Record& run) {
 /// One line of runs.jsonl, keys in the documented order.
 nlohmann::ordered_json to_json(const RunRecord& record);
 
-/// What `to_json(record)` wrote, so that writing it again gives the same line. Nothing, and a
-/// `complaint` that names the key, if it is something else; keys that a record does not have are
-/// passed over.
+/// Reads what `to_json(record)` wrote; writing it again gives the same line. Nothing, and a
+/// `complaint` that names the key, if the line is not a record; unknown keys are ignored.
 std::optional<RunRecord> run_record_from_json(const nlohmann::json& line, std::string& complaint);
 
 }  // namespace rink::loadgen

@@ -1,4 +1,4 @@
-// Records of what an experiment says of a cell.
+// Makes a cell's record from its experiment.
 #include "loadgen/measure/run_record.h"
 
 namespace rink::loadgen {

@@ -1,4 +1,4 @@
-// What one run of a server and its bots showed: a line of runs.jsonl.
+// The figures of one run of a server and its bots: a line of runs.jsonl.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,12 @@ namespace rink::loadgen {
 /// 894, 791, 9293, 7323).
 inline constexpr double segment_header_bytes = 66.0;
 
-/// What was carried, by what it was about, in bytes for each client (or peer) and second
-/// (docs/metrics.md, "Nodes").
+/// Traffic by purpose, in bytes for each client (or peer) and second (docs/metrics.md, "Nodes").
 struct TrafficFigures {
   std::optional<double> halo, claims, agreement, interest, updates, keys;
 };
 
-/// What the busiest node bears: the server, or one of the peers.
+/// The load of the busiest node: the server, or one of the peers.
 struct NodeFigures {
   std::optional<double> busiest_bytes_per_s;   ///< sent and received
   std::optional<double> busiest_events_per_s;  ///< of physics, those of ghosts alone included
@@ -30,11 +29,11 @@ struct NodeFigures {
                    ///< clients, or peers
 };
 
-/// How the load generator itself fared.
+/// The state of the load generator itself.
 struct GeneratorHealth {
   std::optional<double>
       bots_cpu_share;  ///< processor time of the bots / (wall time x processors they may use)
-  std::optional<double> histogram_ns_per_record;  ///< what recording one latency costs
+  std::optional<double> histogram_ns_per_record;  ///< the cost of recording one latency
 };
 
 /// The figures of one cell. docs/metrics.md defines each; values that were not measured are absent
@@ -48,7 +47,8 @@ struct RunRecord {
       wire_bytes_per_client_per_s;
   std::optional<double> messages_per_s;
   Percentiles update_age_ms, key_to_effect_ms;
-  std::optional<std::uint64_t> update_age_samples;  ///< clients x ticks, less what brought no news
+  std::optional<std::uint64_t> update_age_samples;  ///< clients x ticks without those that brought
+                                                    ///< no updates
   std::optional<double> physics_us_per_tick, filter_us_per_tick, send_us_per_tick;
   std::optional<std::uint64_t> server_rss_bytes;
   std::string state_hash;  ///< 16 hexadecimal digits, or empty if unknown
@@ -62,8 +62,8 @@ struct RunRecord {
   std::optional<double> acknowledgements_per_s;  ///< segments without payload
   std::optional<std::uint64_t> keys_due, keys_sent;
   std::optional<double> late_sends_fraction;
-  std::string keys_trouble;  ///< why there is no `key_to_effect_ms`: the keys were sent too late;
-                             ///< empty if not
+  std::string keys_trouble;  ///< why `key_to_effect_ms` is absent: the keys were sent too late;
+                             ///< empty if it is not
   std::optional<double> server_cpu_s,
       bots_cpu_s;       ///< processor time of each process from start to end
   Percentiles tick_us;  ///< wall time of whole ticks

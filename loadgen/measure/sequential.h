@@ -1,5 +1,4 @@
-// Replications until intervals are narrow enough, with the correction that looking again and again
-// asks for.
+// Adds replications until intervals are narrow enough, with the correction for repeated looks.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +11,9 @@
 
 namespace rink::loadgen {
 
-/// No interval of fewer is looked at.
+/// Intervals of fewer replications are not considered.
 inline constexpr std::uint32_t least_replications = 3;
-/// Unless another limit is given.
+/// The default limit.
 inline constexpr std::uint32_t replications_max = 100;
 
 /// The confidence of the interval that is looked at for the `look`-th time, from 1 on, so that all
@@ -29,11 +28,11 @@ struct WideRow {
   std::string words;  ///< which, and how wide
 };
 
-/// Rows of which the interval of the payload's mean, at the confidence of the `look`-th look, is
-/// wider on either side than `width` of the mean, or of which there is none.
+/// Rows whose interval of the payload's mean, at the confidence of the `look`-th look, is wider on
+/// either side than `width` of the mean, or that have no interval.
 std::vector<WideRow> wider_rows(std::span<const SummaryRow> rows, double width, std::uint32_t look);
 
-/// 0.05 of "5%" or "0.05". Throws ExperimentError for what is not above 0 and below 1.
+/// 0.05 for "5%" or "0.05". Throws ExperimentError unless the value is above 0 and below 1.
 double width_in(const std::string& text);
 
 }  // namespace rink::loadgen

@@ -1,5 +1,4 @@
-// The server on a processor of its own against both programs on any: what the second processor
-// changes.
+// Compares the server on a processor of its own with both programs on any processor.
 #pragma once
 
 #include <span>
@@ -14,7 +13,7 @@ namespace rink::loadgen {
 /// One figure of runs in which both programs ran wherever the kernel put them, as a multiple of the
 /// same figure with the two apart. Runs are paired by seed.
 struct CoresRatio {
-  Cell cell;  ///< what the pairs have in common; seed and server_cores are those of the first run
+  Cell cell;  ///< the pairs' common cell; seed and server_cores are those of the first run
   std::string figure;  ///< a column of runs.jsonl, or total_us_per_tick
   Ratio ratio;         ///< anywhere / apart
 };

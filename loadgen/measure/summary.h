@@ -35,11 +35,12 @@ struct Figure {
 /// All figures that are summarised, in the order of summary.csv.
 std::span<const Figure> figures();
 
-/// What all replications of a cell say; its seed means nothing.
+/// The summary of all replications of a cell; its seed is unused.
 struct SummaryRow : Cell {
   std::size_t valid_runs = 0, invalid_runs = 0;
   std::string
-      relevance;  ///< what truth called relevant, in words; empty if no run was held against truth
+      relevance;  ///< the definition of true relevance, in words; empty if no run was compared with
+                  ///< truth
   std::vector<Statistic> statistics;  ///< one per figure, in the order of `figures()`
   std::vector<std::optional<Ratio>>
       ratios;  ///< one per figure, in the same order: to the baseline cell (`baseline_of`), paired
@@ -55,9 +56,9 @@ struct SummaryRow : Cell {
 /// ascending clients, then by pucks, bats and cores. Invalid runs are counted, never averaged in.
 std::vector<SummaryRow> summarise(std::span<const RunRecord> runs, const Baseline& baseline = {});
 
-/// Whether runs that were given the same keys ended in the same state. Only valid runs with
-/// replayed keys take part; those of one seed (and, when the population follows the clients, of one
-/// client count) are compared.
+/// The comparison of final states of runs with the same keys. Only valid runs with replayed keys
+/// take part; those of one seed (and, when the population follows the clients, of one client count)
+/// are compared.
 struct Agreement {
   std::size_t games = 0;  ///< games that two or more runs played
   std::vector<std::string>

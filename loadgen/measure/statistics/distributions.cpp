@@ -1,4 +1,4 @@
-// One continued fraction; the quantile is found by bisection, since nobody waits for it.
+// One continued fraction; the quantile is found by bisection, since it is not time-critical.
 #include "loadgen/measure/statistics/distributions.h"
 
 #include <cassert>

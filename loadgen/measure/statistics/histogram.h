@@ -16,7 +16,7 @@ struct Percentiles {
 };
 
 /// Counts durations in log-linear buckets, as HdrHistogram does: every power of two of a nanosecond
-/// is cut into 512 equal parts, so that a bucket's middle is within 0.1 % of whatever fell into it.
+/// is cut into 512 equal parts, so that a bucket's middle is within 0.1 % of every duration in it.
 /// 110 kB, allocated once; `record` takes constant time and allocates nothing.
 ///
 /// Range: 1.024 us to 137 s. Shorter durations (negative ones too) count as the shortest, longer
@@ -27,8 +27,8 @@ class Histogram {
 
   Histogram();
 
-  /// Counts `times` durations of `duration_s` [s]. Something that is not a number counts as the
-  /// longest: an unknown latency is not a good one.
+  /// Counts `times` durations of `duration_s` [s]. NaN counts as the longest: an unknown latency is
+  /// not a good one.
   void record(double duration_s, std::uint64_t times = 1);
   /// Adds everything that `other` has counted.
   void merge(const Histogram& other);
@@ -57,8 +57,8 @@ class Histogram {
   /// `{"count", "sum_s", "min_s", "max_s", "buckets": [[index, count], ...]}` with the filled
   /// buckets only, in order of index.
   nlohmann::json to_json() const;
-  /// What `to_json` wrote, or nothing if it is not that: indices out of range or order, counts that
-  /// are not positive or do not add up.
+  /// Reads what `to_json` wrote; nothing if it is malformed: indices out of range or order, counts
+  /// that are not positive or do not add up.
   static std::optional<Histogram> from_json(const nlohmann::json& written);
 
   /// Asserts that the buckets add up to the count, and that the extremes are in order.

@@ -1,4 +1,4 @@
-// A straight line through logarithms, and what replications say about it.
+// Fits a straight line to logarithms, and tests it by replications.
 #include "loadgen/measure/statistics/power_fit.h"
 
 #include <algorithm>

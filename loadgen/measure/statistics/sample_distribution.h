@@ -37,10 +37,10 @@ class SampleDistribution {
 
   /// `{"never": count, "millionths": [[value, count], ...]}`, values ascending.
   nlohmann::ordered_json to_json() const;
-  /// What `to_json` wrote, or nothing if it is not that.
+  /// Reads what `to_json` wrote; nothing if it is malformed.
   static std::optional<SampleDistribution> from_json(const nlohmann::json& written);
 
-  /// Asserts that the counts of all values add up to what is said to have ended.
+  /// Asserts that the counts of all values add up to the number that ended.
   void check() const;
 
  private:

@@ -1,4 +1,4 @@
-// Student intervals of means and of log ratios, within what a figure can be.
+// Student intervals of means and of log ratios, within a figure's possible range.
 #include "loadgen/measure/statistics/statistics.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What replications say together: a mean or a ratio, its 95 % confidence interval, and whether a
-// difference can be told from chance.
+// Statistics of replications: a mean or a ratio, its 95 % confidence interval, and whether a
+// difference is significant.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// What values a figure can have, which no interval of its mean passes.
+/// The range of a figure's values, which limits the interval of its mean.
 enum class Scale : std::uint8_t {
   unbounded,  ///< any number
   positive,   ///< 0 or more: bytes, times, errors, counts
@@ -41,7 +41,7 @@ enum class Scale : std::uint8_t {
 /// unbounded.
 std::optional<Interval> interval_of_mean(std::span<const double> values, Scale scale);
 
-/// Whether replications tell two things apart.
+/// Whether replications show a significant difference.
 enum class Difference : std::uint8_t {
   lower,          ///< the interval of the ratio lies below 1
   higher,         ///< ... above 1
@@ -49,21 +49,21 @@ enum class Difference : std::uint8_t {
   unknown         ///< there is no interval: one replication cannot tell
 };
 
-/// How something compares with its baseline.
+/// The ratio of a figure to its baseline's.
 struct Ratio {
   double value = 1.0;                ///< geometric mean of own / baseline
   std::optional<Interval> interval;  ///< absent for a single pair
   std::size_t pairs = 0;
 
   Difference difference() const;
-  /// Baseline / own: how many times less.
+  /// The inverse ratio, baseline / own.
   Ratio inverse() const;
 };
 
-/// The ratio over `pairs` of (own, baseline), one pair per seed: both played the same game, and
-/// what is particular to that game cancels, so the pairs' log ratios are averaged and not the parts
-/// (Jain 1991, 13.4.1, paired observations; 12.7 for why ratios are averaged geometrically).
-/// Nothing if there is no pair, or if one is not above 0 on both sides.
+/// The ratio over `pairs` of (own, baseline), one pair per seed: both played the same game, and the
+/// effects of that game cancel, so the pairs' log ratios are averaged and not the parts (Jain 1991,
+/// 13.4.1, paired observations; 12.7 for why ratios are averaged geometrically). Nothing if there
+/// is no pair, or if one is not above 0 on both sides.
 std::optional<Ratio> ratio_of(std::span<const std::pair<double, double>> pairs);
 
 /// In words: "lower", "higher", "no significant difference", "cannot be told from one replication".

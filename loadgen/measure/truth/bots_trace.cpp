@@ -38,8 +38,8 @@ void add_position(std::string& text, const physics::Vector2& position) {
   }
 }
 
-/// Object and bytes; where it was in scope, also where it was believed to be at the matched
-/// instant, and where at the displayed one if that differs.
+/// Writes object and bytes; if it was in scope, also its believed position at the matched instant,
+/// and that at the displayed one if they differ.
 void add_entry(std::string& text, const BotsTrace::Replica& replica) {
   text += '[';
   add_number(text, replica.object);
@@ -77,7 +77,7 @@ std::string line_of(const BotsTrace& trace, const BotsTrace::Sample& sample) {
   return text + "]}";
 }
 
-/// Takes a sample's line apart; what it finds stands in the public members.
+/// Parses a sample's line into the public members.
 class SampleReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit SampleReader(std::vector<BotsTrace::Replica>& replicas) : replicas_(replicas) {}
@@ -146,7 +146,7 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
   std::vector<BotsTrace::Replica>& replicas_;
   std::string name_;
   int depth_ = 0;
-  std::size_t count_ = 0;  ///< of numbers in the entity at hand
+  std::size_t count_ = 0;  ///< of numbers in the present entity
   std::array<std::int64_t, 6> numbers_{};
 };
 

@@ -1,5 +1,5 @@
-// What the bots say of what they were told and believed, for others to judge: changes of scope, and
-// the replica sets of some at drawn instants.
+// The trace of watched bots from which quality is computed: changes of scope, and replica sets at
+// drawn instants.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,14 @@
 
 namespace rink::loadgen {
 
-/// Plain facts of the bots that were watched. docs/metrics.md describes the file.
+/// The trace of all watched bots. docs/metrics.md describes the file.
 struct BotsTrace {
   struct ScopeChange {
     double instant_s = 0.0;    ///< simulated time of its arrival; below 0 if before the start
     std::uint32_t object = 0;  ///< RTI handle
     bool is_in = false;
   };
-  /// One entity in a replica set. Where it was believed to be is meaningless if it was not in
-  /// scope.
+  /// One entity in a replica set. Its believed position is meaningless if it was not in scope.
   struct Replica {
     std::uint32_t object = 0;
     std::uint32_t bytes = 0;  ///< of its updates that arrived within the window before the sample
@@ -39,16 +38,16 @@ struct BotsTrace {
 
   std::uint32_t clients = 0;
   double from_s = 0.0, until_s = 0.0;  ///< the measured span of simulated time
-  bool is_complete = true;  ///< false: more changed than there is room for, and the rest is missing
+  bool is_complete = true;  ///< false: changes beyond the room for them are missing
   std::vector<Bot> bots;
   std::vector<Sample> samples;  ///< ordered by displayed_s
   std::vector<Replica> replicas;
 };
 
-/// `trace` as a file gives it back: positions rounded to a nanometre, changes of scope to a
+/// `trace` as it is read back from a file: positions rounded to a nanometre, changes of scope to a
 /// microsecond.
 BotsTrace rounded(BotsTrace trace);
-/// Rounds so. Throws std::runtime_error naming `file` if it cannot be written.
+/// Writes the rounded trace. Throws std::runtime_error naming `file` if it cannot be written.
 void write_trace(const std::string& file, const BotsTrace& trace);
 /// Throws game::TraceError naming file, line and what was expected.
 BotsTrace read_bots_trace(const std::string& file);

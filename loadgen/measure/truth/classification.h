@@ -13,9 +13,9 @@
 
 namespace rink::loadgen {
 
-/// Sizes of two sets and of what they share, summed over samples (van Rijsbergen 1979, chapter 7):
-/// each (player, entity) pair counts alike, so a sample in a dense place weighs more than one in an
-/// empty one.
+/// Sizes of two sets and of their intersection, summed over samples (van Rijsbergen 1979, chapter
+/// 7): each (player, entity) pair counts alike, so a sample in a dense place weighs more than one
+/// in an empty one.
 struct Classification {
   std::uint64_t chosen = 0, relevant = 0, both = 0;
 
@@ -26,22 +26,22 @@ struct Classification {
   std::optional<double> recall() const;     ///< both / relevant; nothing if nothing was relevant
 };
 
-/// Distances between where entities were believed to be and where they were.
+/// Distances between believed and true positions of entities.
 class PositionErrors {
  public:
   void add(double distance_m) {
     assert(!(distance_m < 0.0));
     squares_.push_back(distance_m * distance_m);
   }
-  /// Of an entity that was put back elsewhere, of which there was no news yet: a few such would
-  /// outweigh all else in a root mean square.
+  /// Adds an entity that was put back elsewhere without an update so far: a few such would outweigh
+  /// all else in a root mean square.
   void add_replaced(double distance_m) {
     replaced_squares_ += distance_m * distance_m, ++replaced_;
   }
   /// Percentiles only if ten lie beyond them (see Histogram).
   ErrorFigures figures();
   std::size_t count() const { return squares_.size(); }
-  /// [m], without those put back, in no order.
+  /// The distances [m] without those put back, in no order.
   std::vector<double> distances() const;
 
  private:
@@ -56,7 +56,7 @@ Percentiles percentiles_ms(std::vector<double> durations_s);
 Percentiles percentiles_us(std::vector<double> durations_s);
 
 /// (sum x)^2 / (n sum x^2): 1 if all get the same, 1/n if one gets all (Jain, Chiu and Hawe 1984).
-/// Nothing for nobody or if nobody gets anything.
+/// Nothing for no shares or if all are 0.
 std::optional<double> jain_index(std::span<const double> shares);
 
 }  // namespace rink::loadgen

@@ -1,5 +1,5 @@
-// How long players did not know what they should have, and how far off what they were shown was:
-// whole distributions.
+// Distributions of how late players discovered entities, and of how far off displayed positions
+// were.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace rink::loadgen {
 
-/// Of one run, or of all replications of a cell (docs/metrics.md, "Truth").
+/// The distributions of one run, or of all replications of a cell (docs/metrics.md, "Truth").
 struct Discoveries {
-  SampleDistribution late_discovery;  ///< s, of every stay: from its beginning to the first
-                                      ///< delivered state; 0 if it was there before
+  SampleDistribution late_discovery;  ///< s, of every interval of relevance: from its beginning to
+                                      ///< the first delivered state; 0 if that came before
   SampleDistribution missed_contact;  ///< s, of every contact with a body that the player did not
                                       ///< know of: from the contact to the next delivered state
   SampleDistribution displayed_error{};  ///< m, of every displayed entity that was relevant; those
@@ -23,7 +23,7 @@ struct Discoveries {
   friend bool operator==(const Discoveries&, const Discoveries&) = default;
 };
 
-/// Whether it is found out when each entity became relevant, for `late_entry_ms` and late
+/// Whether the instant at which each entity became relevant is found, for `late_entry_ms` and late
 /// discoveries; that takes longer than all else.
 enum class Entries : std::uint8_t { found, passed_over };
 

@@ -1,4 +1,4 @@
-// Each body's neighbours are looked for once, however many players they matter to.
+// Finds each body's neighbours once, however many players they matter to.
 #include "loadgen/measure/truth/encounters.h"
 
 #include <algorithm>
@@ -88,8 +88,8 @@ void Encounters::add_near(const Reaching& body, std::uint32_t first, std::uint32
   assert(first <= last && count <= bodies_.size());
 }
 
-/// As bits, for they are united 30 at a time for each player: lists merged one by one took twice as
-/// long.
+/// The neighbours as bits, since unions of 30 are formed for each player: merging lists took twice
+/// as long.
 const Encounters::Word* Encounters::near(std::uint32_t index) {
   if (near_row_[index] != 0) return near_.data() + (near_row_[index] - 1) * words_;
   near_row_[index] = ++near_rows_;

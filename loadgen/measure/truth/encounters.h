@@ -1,5 +1,5 @@
-// Who can touch whom within a time, at one instant: discs that hold all places a body can get to,
-// in cells.
+// Finds pairs of bodies that can touch within a time: discs that contain all places a body can get
+// to, in cells.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +22,21 @@ struct Reaching {
 
 /// Two bodies can touch if their discs do. Bodies are binned by counting sort into cells that hold
 /// one on average, and looked for as far as the widest disc reaches. Those of more than twice the
-/// mean radius are kept in a list of their own: one fast body does not make everybody look far, and
-/// at most half are such.
+/// mean radius are kept in a list of their own: one fast body does not widen every search, and at
+/// most half are such.
 class Encounters {
  public:
   /// `length` x `width` [m] is where most bodies are.
   Encounters(double length, double width) : length_(length), width_(width) {}
 
-  /// Forgets what was and takes in `bodies`, whose numbers ascend (asserted) and are small and
-  /// dense.
+  /// Replaces the bodies by `bodies`, whose numbers ascend (asserted) and are small and dense.
   void build(std::span<const Reaching> bodies);
-  /// All that can touch `own`, or a puck that can touch it, but itself: in ascending order, in
-  /// `found`, which is overwritten. `own` must be among the bodies. Depths are not worked out but
-  /// 0: nearly always nobody asks.
+  /// Writes all bodies but `own` that can touch `own`, or a puck that can touch it, to `found` in
+  /// ascending order. `own` must be among the bodies. Depths are 0, since they are hardly ever
+  /// needed.
   void find(std::uint32_t own, std::vector<Relevant>& found);
 
-  /// How one of those found for `own` gets to it: by itself, or by way of the puck `via`. Depth [m]
+  /// The way in which a found body can reach `own`: directly, or through the puck `via`. Depth [m]
   /// is the sum of the radii less the distance, or the lesser of two such.
   struct Way {
     double depth = 0.0;

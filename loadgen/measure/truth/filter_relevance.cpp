@@ -1,5 +1,5 @@
-// Bats are subscribed when first asked for; those that look somewhere from the beginning, for where
-// they look is remembered.
+// Subscribes bats when they are first needed; where players' headings matter all are subscribed
+// from the beginning, since headings depend on the past.
 #include "loadgen/measure/truth/filter_relevance.h"
 
 #include <algorithm>

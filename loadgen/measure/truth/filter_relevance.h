@@ -1,4 +1,4 @@
-// Relevance by an expression of the filters, judged by where everything truly is.
+// True relevance by an expression of the filters, applied to true positions.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace rink::loadgen {
 
-/// A filter of its own that is handed what a server would hand in
-/// (game/net/server/push_filter_hints.h), but of the game played again and at each look: true
+/// A separate filter that gets what a server passes to its filter
+/// (game/net/server/push_filter_hints.h), but from the replayed game and at each look: true
 /// bounding boxes, the view around the true centre of each bat without any margin, roles, and where
 /// players look.
 class FilterRelevance {
@@ -24,17 +24,19 @@ class FilterRelevance {
   /// `area` is of the shape `filter`.
   FilterRelevance(const RelevanceArea& area, const game::Scene& scene);
 
-  /// Whether it goes by where players look, which is where they last went if they press no keys.
+  /// True if relevance depends on players' headings, which are their last direction of motion if
+  /// they press no keys.
   bool looks_back() const { return filter_->traits().uses_headings; }
 
-  /// Takes in where everything is now.
+  /// Updates all positions.
   void look_around(const game::Game& game, Centres centres);
-  /// What is relevant to the bat `own`, ascending, with a depth of 0, in `found`, which is
-  /// overwritten. At the instant of the last look around.
+  /// Writes the entities relevant to the bat `own` at the last `look_around` to `found`, ascending,
+  /// with a depth of 0.
   void find(std::uint32_t own, const game::Game& game, Centres centres,
             std::vector<Relevant>& found);
 
-  /// Asserts that what is relevant to each is sorted, each once, and there.
+  /// Asserts that each list of relevant entities is sorted, without repetitions, and of existing
+  /// entities.
   void check() const;
 
  private:
@@ -46,7 +48,7 @@ class FilterRelevance {
   RelevanceArea area_;
   std::unique_ptr<im::Filter> filter_;
   std::vector<std::optional<std::vector<std::uint32_t>>>
-      relevant_;                 ///< ascending, by bat; of those that somebody asked for
+      relevant_;                 ///< ascending, by bat; only of bats that were asked for
   std::vector<bool> are_there_;  ///< by entity
 };
 

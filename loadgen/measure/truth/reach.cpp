@@ -1,4 +1,5 @@
-// |v(t)| <= v exp(-g t) + a s(t), and its integral; friction is a thrust backwards, until rest.
+// |v(t)| <= v exp(-g t) + a s(t), and its integral; friction is an acceleration backwards, until
+// rest.
 #include "loadgen/measure/truth/reach.h"
 
 #include <cassert>

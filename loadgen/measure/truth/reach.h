@@ -4,15 +4,15 @@
 
 namespace rink::loadgen {
 
-/// Of bodies of one kind, within one time, by their own law dv/dt = a - g v; what others do to them
-/// is left aside.
+/// The reach of bodies of one kind within one time by their own law dv/dt = a - g v, without
+/// effects of other bodies.
 class Reach {
  public:
   /// `time_s` above 0; `drag` [1/s] and Coulomb `friction` [m/s^2] at least 0 (all asserted).
   Reach(double time_s, double drag, double friction);
 
-  /// The farthest [m] from `speed` [m/s], with at most `thrust` [m/s^2] along whatever direction.
-  /// One under friction has no thrust (asserted).
+  /// The farthest distance [m] from `speed` [m/s], with at most `acceleration` [m/s^2] in any
+  /// direction. A body under friction has no acceleration (asserted).
   double of(double speed, double thrust = 0.0) const;
 
  private:

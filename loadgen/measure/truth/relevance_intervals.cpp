@@ -1,4 +1,4 @@
-// Opens, settles and closes stays, look by look.
+// Opens, settles and closes intervals of relevance, look by look.
 #include "loadgen/measure/truth/relevance_intervals.h"
 
 #include <algorithm>

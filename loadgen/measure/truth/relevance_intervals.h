@@ -12,13 +12,14 @@
 
 namespace rink::loadgen {
 
-/// Follows the stays of entities within one player's area. A stay begins between two looks, at the
-/// instant at which its depth, taken as linear, passes 0. Its entity is late from then to its first
-/// delivered state; one that is never delivered is late for its whole stay, as far as it was seen.
+/// Follows the intervals in which entities are within one player's area. An interval begins between
+/// two looks, at the instant at which the depth, taken as linear, passes 0. Its entity is late from
+/// then to its first delivered state; one that is never delivered is late for the whole interval,
+/// as far as it was seen.
 class RelevanceIntervals {
  public:
-  /// Of what is relevant now and was not at the look before: the part of the time between the two
-  /// that had passed when its depth passed 0; 1 if it was not there.
+  /// For an entity that is relevant now and was not at the look before: the fraction of the time
+  /// between the two after which its depth passed 0; 1 if it did not exist then.
   using Passed = std::function<double(const Relevant& now)>;
 
   /// Looks at what is relevant at `instant_s`, ascending by entity, and at what had been delivered
@@ -26,14 +27,14 @@ class RelevanceIntervals {
   /// first look began at an unknown instant and is left out.
   void look(double instant_s, std::span<const Relevant> relevant, const ScopeHistory& delivered,
             const Passed& passed);
-  /// Ends what is still there; no look may follow.
+  /// Ends the intervals that are still open; no look may follow.
   void end();
 
-  /// How late each entry was [s], in order of its delivery; 0 if the entity was there already.
+  /// The lateness of each entry [s], in order of delivery; 0 if the entity was delivered already.
   const std::vector<double>& lateness_s() const { return lateness_s_; }
-  /// Of those that were delivered.
+  /// The lateness of entries that were delivered.
   const std::vector<double>& delivered_after_s() const { return delivered_after_s_; }
-  /// Stays that ended, or were last seen, without a delivery.
+  /// Intervals that ended, or were last seen, without a delivery.
   std::uint64_t never_delivered() const { return never_delivered_; }
 
  private:

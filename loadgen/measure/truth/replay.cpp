@@ -1,4 +1,4 @@
-// The scene as the server chose it, with every key at its stamped instant.
+// Replays the scene as the server chose it, with every key at its stamped instant.
 #include "loadgen/measure/truth/replay.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ void Replay::look_around() {
   else surroundings_.build(placed_);
 }
 
-/// How far it can get by its own law; a puck that is not where it is announced gets nowhere yet.
+/// How far the entity can get by its own law; 0 for a puck that is not at its announced place yet.
 double Replay::reach(const game::Entity& entity) const {
   if (entity.kind == physics::BodyKind::post || away_[entity.id.index]) return 0.0;
   const physics::Motion motion = game_.world().motion(entity.id);
@@ -88,7 +88,7 @@ double Replay::reach(const game::Entity& entity) const {
 }
 
 double Replay::passed(std::uint32_t own, const Relevant& now) {
-  if (filter_) return 1.0;  // it says that somebody is relevant, not how much
+  if (filter_) return 1.0;  // a filter decides relevance without a depth
   Encounters::Way way{now.depth, std::nullopt};
   if (is_of_contact() && std::isfinite(now.depth)) way = encounters_.way(own, now.entity);
   const std::optional<double> before = depth_before(own, now.entity, way);
@@ -133,8 +133,8 @@ void Replay::find(std::uint32_t own, std::vector<Relevant>& found) {
                      [](const Relevant& a, const Relevant& b) { return a.entity < b.entity; });
 }
 
-/// A puck that is put back at a face-off comes by no path: until the next tick, the first that can
-/// tell of it, it counts as lying where it left play.
+/// A puck that is put back at a face-off jumps: until the next tick, the first that can announce
+/// it, it counts as lying where it left play.
 Vector2 Replay::announced_centre(game::EntityId entity) {
   const Vector2 centre = game_.position(entity);
   if (away_.size() <= entity.index)
@@ -146,7 +146,7 @@ Vector2 Replay::announced_centre(game::EntityId entity) {
     constexpr double rounding = 1e-6;  // of a tick
     if (!away->until_s)
       away->until_s = std::ceil(game_.world().motion(entity).time * rate_hz_ - rounding) /
-                      rate_hz_;  // its first event was being put back
+                      rate_hz_;  // its first event was the jump
     if (game_.now() < *away->until_s - rounding / rate_hz_) return away->centre;
     replaced_s_[entity.index] = away->until_s;
     away.reset();

@@ -1,4 +1,4 @@
-// A recorded game played again, look by look: the state that everything else is measured against.
+// A replay of a recorded game, look by look: the true state that all figures are measured against.
 #pragma once
 
 #include <cassert>
@@ -18,8 +18,7 @@
 
 namespace rink::loadgen {
 
-/// The game played again from the evidence is not the one that the server played: nothing that was
-/// measured in it can be trusted.
+/// The replayed game is not the one that the server played, so no figure from it can be trusted.
 class DifferentGame : public game::TraceError {
  public:
   using game::TraceError::TraceError;
@@ -28,42 +27,42 @@ class DifferentGame : public game::TraceError {
 /// Entities are named by the numbers of their bodies. Instants never decrease.
 class Replay {
  public:
-  /// Throws game::TraceError if the evidence speaks of players that the scene lacks,
-  /// game::SceneError if there is no such scene or its saved game is none of it.
+  /// Throws game::TraceError if the trace names players that the scene lacks, game::SceneError if
+  /// there is no such scene or the saved game is not of it.
   Replay(const game::ServerTrace& trace, const RelevanceArea& area);
 
-  /// Of the game: 0, or where its saved state stands [s].
+  /// The game's beginning [s]: 0, or the time of its saved state.
   double begin_s() const { return begin_s_; }
   /// Plays up to `instant_s`.
   void advance(double instant_s);
-  /// Takes in where everything is now; asked for once for each instant at which `find` is used.
+  /// Updates all positions; call it once for each instant at which `find` is used.
   void look_around();
 
-  /// Whether what is relevant depends on how things went since the beginning, so that someone has
-  /// to have looked around all the while.
+  /// True if relevance depends on the past, so that `look_around` must be called regularly from the
+  /// beginning.
   bool looks_back() const { return filter_ && filter_->looks_back(); }
 
   bool is_there(std::uint32_t entity) const {
     return entity < centres_.size() && centres_[entity].has_value();
   }
-  /// At the last look; `entity` must have been there.
+  /// The centre at the last look; `entity` must have been in play.
   const Vector2& centre(std::uint32_t entity) const {
     assert(is_there(entity));
     return *centres_[entity];
   }
   /// Keeps this look for `passed`.
   void remember() { before_ = centres_, around_before_ = around_; }
-  /// Of what is relevant to the bat `own` now and was not at the look remembered: see
-  /// Stays::Passed. By the way by which it is relevant now.
+  /// `RelevanceIntervals::Passed` for an entity that is relevant to the bat `own` now and was not
+  /// at the remembered look.
   double passed(std::uint32_t own, const Relevant& now);
-  /// The first tick that could tell of `entity` having been put back at its latest face-off, if
+  /// The first tick that could announce `entity` at its new place after its latest face-off, if
   /// there was one by the last look; from then on it counts there.
   std::optional<double> replaced_s(std::uint32_t entity) const {
     return entity < replaced_s_.size() ? replaced_s_[entity] : std::nullopt;
   }
   Vector2 half_extent(std::uint32_t entity) const { return game_.world().half_extent({entity}); }
-  /// What is relevant to the bat `own`, ascending; what is so wherever it is counts as infinitely
-  /// deep.
+  /// Finds the entities relevant to the bat `own`, ascending; those relevant wherever they are
+  /// count as infinitely deep.
   void find(std::uint32_t own, std::vector<Relevant>& found);
 
   std::optional<std::uint32_t> entity_of_object(std::uint32_t object) const;

@@ -1,4 +1,4 @@
-// One pass over the replayed game, stopping wherever a figure needs to know how things stood.
+// Passes once over the replayed game, stopping wherever a figure needs the state.
 #include "loadgen/measure/truth/replay_judgement.h"
 
 #include <algorithm>
@@ -132,9 +132,9 @@ bool ReplayJudgement::is_relevant(std::uint32_t entity) const {
   return found != relevant_.end() && found->entity == entity;
 }
 
-/// Whether `entity` was put back at a face-off that the mirror of `sample` had no news of: the
-/// mirror's newest stamp is from before, or nothing came about the entity within a window that
-/// reaches back before it, be it an update or the state on an entry.
+/// True if `entity` was put back at a face-off of which the replica set of `sample` had no update:
+/// its newest stamp is from before, or neither an update of the entity nor its state on entry came
+/// within a window that reaches back before the face-off.
 bool ReplayJudgement::is_replaced_unheard(const BotsTrace::Sample& sample,
                                           const BotsTrace::Replica& replica,
                                           std::uint32_t entity) const {

@@ -1,4 +1,4 @@
-// Holds what server and bots said against the game played again, and sums up the figures; for the
+// Compares the traces of server and bots with the replayed game, and sums up the figures; for the
 // truth's own sources only.
 #pragma once
 
@@ -28,19 +28,19 @@ class ReplayJudgement {
   ReplayJudgement(const game::ServerTrace& server, const BotsTrace& bots, const RelevanceArea& area,
                   Entries entries = Entries::found);
 
-  /// Keeps in it where everything was; before `figures`.
+  /// Records all positions in `trace`; call it before `figures`.
   void trace_to(TruthTrace& trace) {
     trace_ = &trace;
     trace.begin(area_, replay_);
   }
 
-  /// After `figures`.
+  /// The distributions of delays; call it after `figures`.
   Discoveries discoveries() const;
 
   TruthFigures figures();
 
  private:
-  /// A watched bot, and what it had been told by the instant at hand.
+  /// A watched bot, and what it had received by the present instant.
   struct Player {
     explicit Player(std::vector<ScopeStep> told)
         : steps(told), delivered(told), at_contacts(std::move(told)) {}
@@ -50,7 +50,7 @@ class ReplayJudgement {
     RelevanceIntervals intervals;
   };
 
-  /// Something to be judged at an instant; `index` is into what its kind is about.
+  /// An instant at which something is evaluated; `index` is into the list of its kind.
   struct Look {
     enum class Kind : std::uint8_t { before, step, decision, displayed, matched };
     double instant_s;

@@ -1,4 +1,4 @@
-// A repeated step is no change: a federate may be told twice what it knows.
+// A repeated step is no change: a federate may receive the same notice twice.
 #include "loadgen/measure/truth/scope_history.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What one player had in its replica set, replayed forward in time.
+// One player's replica set, replayed forward in time.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace rink::loadgen {
 
-/// Something came into a player's scope, or left it.
+/// An entity came into a player's scope, or left it.
 struct ScopeStep {
   double instant_s = 0.0;
   std::uint32_t entity = 0;
@@ -20,7 +20,7 @@ struct ScopeStep {
 /// Entities are small dense numbers.
 class ScopeHistory {
  public:
-  /// Steps ordered by instant; repetitions of what is the case already are ignored.
+  /// Steps are ordered by instant; repetitions are ignored.
   explicit ScopeHistory(std::vector<ScopeStep> steps) : steps_(std::move(steps)) {
     assert(std::ranges::is_sorted(steps_, {}, &ScopeStep::instant_s));
   }
@@ -30,11 +30,11 @@ class ScopeHistory {
   bool contains(std::uint32_t entity) const {
     return entity < entered_s_.size() && entered_s_[entity].has_value();
   }
-  /// Since when `entity` is in scope, if it is.
+  /// The time at which `entity` came into scope, if it is in scope.
   std::optional<double> entered_s(std::uint32_t entity) const {
     return contains(entity) ? entered_s_[entity] : std::nullopt;
   }
-  /// All in scope but `own`, ascending, in `entities`, which is overwritten.
+  /// Writes all in scope but `own` to `entities`, ascending.
   void list(std::uint32_t own, std::vector<std::uint32_t>& entities) const;
 
  private:
@@ -51,8 +51,8 @@ struct ScopeChanges {
 
 inline constexpr double flap_s = 1.0;
 
-/// Steps count from `from_s` up to, not including, `until_s`; those before serve to know what left
-/// when.
+/// Counts steps from `from_s` up to, not including, `until_s`; earlier ones only give the state at
+/// the beginning.
 ScopeChanges count_changes(std::span<const ScopeStep> steps, std::uint32_t own, double from_s,
                            double until_s);
 

@@ -1,4 +1,4 @@
-// Who is near whom at one instant: every entity's true place, in cells.
+// Finds entities near a bat at one instant: every entity's true place, in cells.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace rink::loadgen {
 
-/// An entity that is there, under a number of the caller's.
+/// An entity in play, under a number of the caller's.
 struct Placed {
   std::uint32_t entity = 0;
   Vector2 centre{0.0, 0.0}, half_extent{0.0, 0.0};  ///< m
@@ -32,10 +32,10 @@ class Surroundings {
   /// `length` x `width` [m] is where most entities are.
   Surroundings(const RelevanceArea& area, double length, double width);
 
-  /// Forgets what was and takes in `placed`.
+  /// Replaces the entities by `placed`.
   void build(std::span<const Placed> placed);
-  /// All that is relevant to a bat at `bat` but `own`, which is the bat itself, in ascending order;
-  /// in `found`, which is overwritten.
+  /// Writes all that is relevant to a bat at `bat` to `found` in ascending order, but for `own`,
+  /// which is the bat itself.
   void find(const Vector2& bat, std::uint32_t own, std::vector<Relevant>& found) const;
 
   /// Asserts that every entity is in the cell in which its place is, once.

@@ -1,5 +1,5 @@
-// Where everything truly was at each instant at which a run was judged, as lines for programs that
-// judge it again.
+// Writes all true positions at each instant at which a run was evaluated, as lines for programs
+// that check the figures.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ class TruthTrace {
  public:
   explicit TruthTrace(const std::string& file) : writer_(file) {}
 
-  /// Before anything else.
+  /// Call it first.
   void begin(const RelevanceArea& area, const Replay& replay);
-  /// Where all are now; `replay` has looked around.
+  /// Writes all present positions; `replay.look_around` was called before.
   void look(double instant_s, const Replay& replay);
   /// `body` met `other`.
   void contact(double instant_s, std::uint32_t body, std::uint32_t other);

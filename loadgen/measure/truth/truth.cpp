@@ -1,4 +1,4 @@
-// What a run's record gains from its evidence, and what the experiment calls relevant.
+// Adds figures of truth to a run's record, and finds the experiment's definition of relevance.
 #include "loadgen/measure/truth/truth.h"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ void add_tick_costs(RunRecord& record, const game::ServerTrace& server) {
     record.tick_us = percentiles_us(std::move(ticks_s));
 }
 
-/// What goes wrong in `act` is why there are no figures, or why the run does not count.
+/// Runs `act`; its error becomes the reason why figures are absent, or why the run does not count.
 template <class Act>
 void record_error(RunRecord& record, const Act& act) {
   try {

@@ -1,4 +1,4 @@
-// What truth finds out about a run, as figures.
+// The figures of a run that the comparison with the true state gives.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace rink::loadgen {
 
-/// Root mean square, percentiles and maximum of distances [mm]; apart from them, what had been put
-/// back since it was last heard of.
+/// Root mean square, percentiles and maximum of distances [mm]; entities that were put back since
+/// their last update are counted apart.
 struct ErrorFigures {
   std::optional<double> rms, p99, max;
   std::optional<double> p50{}, p90{};
@@ -18,8 +18,7 @@ struct ErrorFigures {
   std::optional<double> replaced_rms{};             ///< of those
 };
 
-/// What a re-simulation of the run says about its quality (docs/metrics.md); all absent if there
-/// was no evidence.
+/// Quality of a run by its replay (docs/metrics.md); all absent if there was no trace.
 struct TruthFigures {
   std::optional<double> filter_precision, filter_recall, delivered_precision, delivered_recall;
   std::optional<std::uint64_t> interactions, missed_interactions;  ///< of the watched players' bats
@@ -27,7 +26,7 @@ struct TruthFigures {
   ErrorFigures position_error_mm, displayed_error_mm;
   std::optional<double> churn_per_client_per_s, flapping_fraction, wasted_bytes_fraction,
       control_bytes_fraction, fairness_jain;
-  std::string relevance;  ///< what truth calls relevant, for a reader, e.g. "square of 3.16 m
+  std::string relevance;  ///< the definition of true relevance in words, e.g. "square of 3.16 m
                           ///< around the bat, touched by the entity's box"
   std::string
       error;  ///< why the figures are absent; empty if they are not, or if no evidence was taken
