@@ -16,7 +16,7 @@
 
 namespace rink::rti {
 
-class AmbassadorServices;
+class AmbassadorParts;
 class FederateClock;
 class Fom;
 
@@ -337,7 +337,7 @@ class Ambassador {
   ~Ambassador();
 
  private:
-  std::unique_ptr<AmbassadorServices> services_;
+  std::unique_ptr<AmbassadorParts> parts_;
 };
 
 }  // namespace rink::rti

@@ -9,6 +9,7 @@ namespace rink::rti {
 AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
                                  const Timeouts& timeouts, CallbackModel model)
     : ground(fom, callbacks, timeouts, model),
+      lookup(fom),
       sender(ground.basis(), {ground.objects, ground.ownership, ground.classes, ground.arrivals,
                               ground.watch, ground.sent}),
       sparing(ground.basis(), {ground.classes, ground.ownership, ground.gate, ground.sent, sender}),

@@ -17,6 +17,7 @@
 #include "rti/federate/services/federate_transportation.h"
 #include "rti/federate/services/host_questions.h"
 #include "rti/federate/services/join_session.h"
+#include "rti/fom/fom_lookup.h"
 
 namespace rink::rti {
 
@@ -49,6 +50,7 @@ class AmbassadorParts final {
   bool handle_timed(Reader& reader, const ReadContext& context);
 
   AmbassadorGround ground;
+  FomLookup lookup;
   UpdateSender sender;
   Sparing sparing;
   FederateUpdates updates;

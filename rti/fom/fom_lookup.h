@@ -45,7 +45,7 @@ class FomLookup {
   DimensionSet get_available_dimensions_for_interaction_class(
       InteractionClassHandle interaction_class) const;
 
- protected:
+ private:
   void check(DimensionHandle dimension) const;
 
   const Fom& fom_;
