@@ -16,7 +16,7 @@ Status Connections::answer(ConnectionId id, Message message) {
 }
 
 /// A host of one execution refuses to create others or to destroy its own.
-Status Connections::answer_stranger(ConnectionId id, MessageKind kind, Reader& reader) {
+Status Connections::answer_unjoined(ConnectionId id, MessageKind kind, Reader& reader) {
   if (!connections_[id].limits.ask()) return Violation::over_limit;
   const std::string& own = basis_.settings.federation;
   switch (kind) {

@@ -21,7 +21,7 @@ void Connections::connect(ConnectionId id) {
 
 void Connections::disconnect(ConnectionId id) {
   if (id >= connections_.size()) return;
-  if (is_joined(id)) desk_.remove(connections_[id].federate, ResignReason::lost);
+  if (is_joined(id)) handler_.remove(connections_[id].federate, ResignReason::lost);
   connections_[id] = {};
   forget_words(id);
 }
@@ -48,7 +48,7 @@ void Connections::expel(ConnectionId id, Violation violation, ResignReason reaso
   ++basis_.counters.drops[static_cast<std::size_t>(violation)];
   // An unjoined connection that breaks a rule gets no answer: it may be another program altogether.
   const bool was_joined = is_joined(id);
-  if (was_joined) desk_.remove(connections_[id].federate, reason);
+  if (was_joined) handler_.remove(connections_[id].federate, reason);
   connections_[id] = {};
   pending_closes_.push_back(
       {id, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
@@ -56,7 +56,7 @@ void Connections::expel(ConnectionId id, Violation violation, ResignReason reaso
 
 Status Connections::resign(ConnectionId id) {
   assert(is_joined(id));
-  desk_.remove(connections_[id].federate, ResignReason::resigned);
+  handler_.remove(connections_[id].federate, ResignReason::resigned);
   connections_[id] = {};
   pending_closes_.push_back({id, "resigned", {}});
   return std::nullopt;
@@ -99,27 +99,27 @@ void Connections::receive_datagram(ConnectionId id, Bytes datagram) {
   connections_[id].has_spoken = true;
   const std::uint32_t slot = connections_[id].federate;
   basis_.federates[slot].counts.bytes_sent += datagram.size();
-  desk_.handle_datagram(slot, datagram);
+  handler_.handle_datagram(slot, datagram);
 }
 
 Status Connections::handle_frame(ConnectionId id, Bytes frame) {
   ++basis_.counters.frames_received;
   connections_[id].has_spoken = true;
-  if (is_joined(id)) desk_.begin_frame(connections_[id].federate);
+  if (is_joined(id)) handler_.begin_frame(connections_[id].federate);
   Reader reader(frame);
   while (!reader.is_at_end() && !is_unknown(id))
     if (const Status status = handle_message(id, reader)) return status;
-  if (is_joined(id)) desk_.end_frame(connections_[id].federate);
+  if (is_joined(id)) handler_.end_frame(connections_[id].federate);
   return std::nullopt;
 }
 
 Status Connections::handle_message(ConnectionId id, Reader& reader) {
-  if (is_joined(id)) return desk_.handle_message(connections_[id].federate, reader);
+  if (is_joined(id)) return handler_.handle_message(connections_[id].federate, reader);
   std::uint8_t kind = 0;
   reader.number(kind);
   return static_cast<MessageKind>(kind) == MessageKind::join
              ? join(id, reader)
-             : answer_stranger(id, static_cast<MessageKind>(kind), reader);
+             : answer_unjoined(id, static_cast<MessageKind>(kind), reader);
 }
 
 Status Connections::join(ConnectionId id, Reader& reader) {
@@ -127,7 +127,7 @@ Status Connections::join(ConnectionId id, Reader& reader) {
   if (!exchange(reader, message)) return Violation::malformed;
   if (const auto objection = membership_.objection(message))
     return refuse(id, *objection), std::nullopt;
-  const std::uint32_t slot = desk_.admit(id, message);
+  const std::uint32_t slot = handler_.admit(id, message);
   connections_[id].phase = Phase::joined;
   connections_[id].federate = slot;
   return std::nullopt;

@@ -16,9 +16,9 @@
 namespace rink::rti {
 
 /// The federation as its connections see it.
-class FederateDesk {
+class FrameHandler {
  public:
-  virtual ~FederateDesk() = default;
+  virtual ~FrameHandler() = default;
   /// Admits a federate and returns its slot.
   virtual std::uint32_t admit(ConnectionId connection, const JoinMessage& message) = 0;
   virtual void remove(std::uint32_t slot, ResignReason reason) = 0;
@@ -32,8 +32,8 @@ class FederateDesk {
 class Connections {
  public:
   Connections(const FederationBasis& basis, const Membership& membership,
-              const FederationCensus& census, FederateDesk& desk)
-      : basis_(basis), membership_(membership), census_(census), desk_(desk) {}
+              const FederationCensus& census, FrameHandler& handler)
+      : basis_(basis), membership_(membership), census_(census), handler_(handler) {}
 
   void connect(ConnectionId id);
   void disconnect(ConnectionId id);
@@ -64,7 +64,7 @@ class Connections {
   Status join(ConnectionId id, Reader& reader);
   void refuse(ConnectionId id, const Membership::Objection& objection);
   std::vector<std::byte> framed_digest() const;
-  Status answer_stranger(ConnectionId id, MessageKind kind, Reader& reader);
+  Status answer_unjoined(ConnectionId id, MessageKind kind, Reader& reader);
   template <class Message>
   Status answer(ConnectionId id, Message message);
   Status list_executions(ConnectionId id);
@@ -73,7 +73,7 @@ class Connections {
   FederationBasis basis_;
   const Membership& membership_;
   const FederationCensus& census_;
-  FederateDesk& desk_;
+  FrameHandler& handler_;
   std::vector<FederationConnection> connections_;  ///< by id
   std::vector<ConnectionId> report_queries_;       ///< that wait for the next flush
   std::vector<PendingClose> pending_closes_,

@@ -28,7 +28,7 @@ namespace rink::rti {
 
 /// Owns the services, each of which sees only those above it, and has the sequences whose order
 /// shows on the wire: the steps when a federate leaves, and those of a flush.
-class FederationParts final : private FederateDesk {
+class FederationParts final : private FrameHandler {
  public:
   FederationParts(const Fom& fom, const FederationSettings& settings,
                   const FederationServices& services, std::unique_ptr<im::Filter> filter);

@@ -153,8 +153,8 @@ bool FederateDeclarations::handle_object_relevance(Reader& reader) {
   if (known == nullptr) return uses_.objects.is_gone(object);
   const AttributeSet now{message.attributes};
   if (!basis_.fom.attributes(ObjectClassHandle{known->object_class}).includes(now)) return false;
-  const AttributeSet* told = relevant_objects_.find(object);
-  const AttributeSet before = told != nullptr ? *told : AttributeSet();
+  const AttributeSet* advised = relevant_objects_.find(object);
+  const AttributeSet before = advised != nullptr ? *advised : AttributeSet();
   if (now.is_empty()) relevant_objects_.erase(object);
   else relevant_objects_[object] = now;
   if (!is_on(Advisory::attribute_relevance)) return true;

@@ -32,8 +32,8 @@ bool FederateOwnership::handle_notices(Reader& reader) {
 void FederateOwnership::note(ObjectHandle object, OwnershipNotice notice, AttributeSet attributes,
                              Bytes tag) {
   const AttributeSet pending = attributes & uses_.book.pending_of(object);
-  const AttributeSet told = change(object, notice, attributes);
-  if (!told.is_empty()) call_back(object, notice, told, tag);
+  const AttributeSet concerned = change(object, notice, attributes);
+  if (!concerned.is_empty()) call_back(object, notice, concerned, tag);
   const bool is_kept = notice == OwnershipNotice::kept || notice == OwnershipNotice::kept_offered;
   if (is_kept && !pending.is_empty())
     call_back(object, OwnershipNotice::acquired, pending,
@@ -44,23 +44,23 @@ void FederateOwnership::note(ObjectHandle object, OwnershipNotice notice, Attrib
 /// attributes that are no longer owned or wanted, and is ignored.
 AttributeSet FederateOwnership::change(ObjectHandle object, OwnershipNotice notice,
                                        AttributeSet attributes) {
-  AttributeSet told = attributes;
+  AttributeSet concerned = attributes;
   uses_.book.change(object, [&](Holding& holding) {
     const AttributeSet pending = attributes & holding.pending();
     switch (notice) {
       case OwnershipNotice::assumption_requested:
-        told = attributes.without(holding.owned).without(pending);
+        concerned = attributes.without(holding.owned).without(pending);
         break;
       case OwnershipNotice::confirmation_requested:
-        told = attributes & holding.offered;
-        holding.confirmable = holding.confirmable | told;
+        concerned = attributes & holding.offered;
+        holding.confirmable = holding.confirmable | concerned;
         break;
       case OwnershipNotice::release_requested:
-        told = attributes & holding.owned;
+        concerned = attributes & holding.owned;
         break;
       case OwnershipNotice::unavailable:
       case OwnershipNotice::acquisition_cancelled:
-        told = pending;
+        concerned = pending;
         holding.end_acquisition(attributes);
         break;
       case OwnershipNotice::acquired:
@@ -75,7 +75,7 @@ AttributeSet FederateOwnership::change(ObjectHandle object, OwnershipNotice noti
         break;
     }
   });
-  return told;
+  return concerned;
 }
 
 void FederateOwnership::call_back(ObjectHandle object, OwnershipNotice notice,

@@ -10,40 +10,40 @@ namespace rink::rti {
 Guard::Guard(const SharedKey& key, GuardSettings settings, Clock now_s)
     : key_(key), settings_(std::move(settings)), now_s_(std::move(now_s)) {}
 
-Guard::Stranger* Guard::find(ConnectionId connection) {
+Guard::Admission* Guard::find(ConnectionId connection) {
   if (is_known(connection)) return nullptr;
-  for (const auto& each : strangers_)
+  for (const auto& each : admissions_)
     if (each->connection == connection) return each.get();
   return nullptr;
 }
 
-Guard::Stranger& Guard::meet(ConnectionId connection) {
-  if (Stranger* stranger = find(connection)) return *stranger;
-  strangers_.push_back(std::make_unique<Stranger>(
-      Stranger{connection,
+Guard::Admission& Guard::admission_of(ConnectionId connection) {
+  if (Admission* admission = find(connection)) return *admission;
+  admissions_.push_back(std::make_unique<Admission>(
+      Admission{connection,
                now_s_(),
                Handshake(key_, settings_.role, settings_.federation, draw_nonce()),
                {}}));
-  return *strangers_.back();
+  return *admissions_.back();
 }
 
 void Guard::forget(ConnectionId connection) {
-  std::erase_if(strangers_,
+  std::erase_if(admissions_,
                 [connection](const auto& each) { return each->connection == connection; });
 }
 
-void Guard::speak(Stranger& stranger) {
-  assert(!is_known(stranger.connection));
-  const Bytes greeting = stranger.handshake.outgoing();
-  if (!greeting.empty()) TransportStage::send(stranger.connection, std::span(&greeting, 1));
-  stranger.handshake.clear_outgoing();
+void Guard::send_handshake(Admission& admission) {
+  assert(!is_known(admission.connection));
+  const Bytes greeting = admission.handshake.outgoing();
+  if (!greeting.empty()) TransportStage::send(admission.connection, std::span(&greeting, 1));
+  admission.handshake.clear_outgoing();
 }
 
-void Guard::refuse(Stranger& stranger) {
-  if (stranger.is_refused) return;
-  stranger.is_refused = true;
+void Guard::refuse(Admission& admission) {
+  if (admission.is_refused) return;
+  admission.is_refused = true;
   ++refused_;
-  close(stranger.connection);
+  close(admission.connection);
 }
 
 void Guard::admit(ConnectionId connection) {
@@ -58,28 +58,28 @@ void Guard::admit(ConnectionId connection) {
 }
 
 void Guard::on_open(ConnectionId connection) {
-  Stranger& stranger = meet(connection);
-  stranger.is_open = true;
-  speak(stranger);
+  Admission& admission = admission_of(connection);
+  admission.is_open = true;
+  send_handshake(admission);
 }
 
 void Guard::on_bytes(ConnectionId connection, Bytes bytes) {
-  Stranger* stranger = find(connection);
-  if (stranger == nullptr) return TransportStage::on_bytes(connection, bytes);
-  if (stranger->is_refused) return;
-  const Handshake::State state = stranger->handshake.receive(bytes);
-  speak(*stranger);
-  if (state == Handshake::State::failed) refuse(*stranger);
+  Admission* admission = find(connection);
+  if (admission == nullptr) return TransportStage::on_bytes(connection, bytes);
+  if (admission->is_refused) return;
+  const Handshake::State state = admission->handshake.receive(bytes);
+  send_handshake(*admission);
+  if (state == Handshake::State::failed) refuse(*admission);
   if (state != Handshake::State::proven) return;
   admit(connection);
   if (!bytes.empty()) TransportStage::on_bytes(connection, bytes);
 }
 
 void Guard::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
-  const Stranger* stranger = find(connection);
-  if (stranger == nullptr) return TransportStage::on_close(connection, reason, detail);
-  const std::string why = stranger->handshake.why();
-  const bool was_open = stranger->is_open, was_refused = stranger->is_refused;
+  const Admission* admission = find(connection);
+  if (admission == nullptr) return TransportStage::on_close(connection, reason, detail);
+  const std::string why = admission->handshake.why();
+  const bool was_open = admission->is_open, was_refused = admission->is_refused;
   forget(connection);
   if (settings_.role == Role::rti) return;
   if (!was_open) return TransportStage::on_close(connection, reason, detail);
@@ -92,9 +92,9 @@ void Guard::on_close(ConnectionId connection, CloseReason reason, const std::str
 }
 
 void Guard::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
-  if (!strangers_.empty()) {
+  if (!admissions_.empty()) {
     const double now = now_s_();
-    for (const auto& each : strangers_)
+    for (const auto& each : admissions_)
       if (each->is_open && now - each->since > settings_.patience_s) refuse(*each);
     longest_wait = std::min<std::chrono::nanoseconds>(
         longest_wait,
@@ -107,9 +107,9 @@ void Guard::poll(std::chrono::nanoseconds longest_wait, TransportListener& liste
 void Guard::send(ConnectionId connection, std::span<const Bytes> parts) {
   if (is_known(connection)) return TransportStage::send(connection, parts);
   if (settings_.role == Role::rti) return;  // its user does not know it
-  Stranger& stranger = meet(connection);
+  Admission& admission = admission_of(connection);
   for (const Bytes part : parts)
-    stranger.pending.insert(stranger.pending.end(), part.begin(), part.end());
+    admission.pending.insert(admission.pending.end(), part.begin(), part.end());
 }
 
 }  // namespace rink::rti

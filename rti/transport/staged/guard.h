@@ -46,7 +46,7 @@ class Guard final : public TransportStage {
   }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
 
-  struct Stranger {
+  struct Admission {
     ConnectionId connection;
     double since;
     Handshake handshake;
@@ -56,17 +56,17 @@ class Guard final : public TransportStage {
   bool is_known(ConnectionId connection) const {
     return connection < is_known_.size() && is_known_[connection];
   }
-  Stranger* find(ConnectionId connection);
-  Stranger& meet(ConnectionId connection);
+  Admission* find(ConnectionId connection);
+  Admission& admission_of(ConnectionId connection);
   void forget(ConnectionId connection);
-  void speak(Stranger& stranger);
-  void refuse(Stranger& stranger);
+  void send_handshake(Admission& admission);
+  void refuse(Admission& admission);
   void admit(ConnectionId connection);
 
   SharedKey key_;
   GuardSettings settings_;
   Clock now_s_;
-  std::vector<std::unique_ptr<Stranger>> strangers_;
+  std::vector<std::unique_ptr<Admission>> admissions_;
   std::vector<bool> is_known_;  ///< by connection: proven
   std::uint64_t refused_ = 0;
 };

@@ -193,7 +193,7 @@ void UdpTransport::handle_client_datagram(const SocketAddress& source, Bytes dat
   // A sender with the key but another address than the TCP connection's could make this end flood a
   // stranger.
   if (channel == nullptr || !channel->address.is_same_host(source)) {
-    ++counters_.stranger_datagrams;
+    ++counters_.rejected_datagrams;
     return;
   }
   const bool is_from_there =
@@ -214,7 +214,7 @@ void UdpTransport::handle_client_datagram(const SocketAddress& source, Bytes dat
   }
   if (kind == Kind::data && is_from_there && channel->state == Channel::State::open)
     return handle_data(known->second, datagram);
-  ++counters_.stranger_datagrams;
+  ++counters_.rejected_datagrams;
 }
 
 void UdpTransport::handle_server_datagram(ConnectionId connection, Channel& channel,
@@ -223,7 +223,7 @@ void UdpTransport::handle_server_datagram(ConnectionId connection, Channel& chan
   std::uint64_t key = 0;
   Kind kind{};
   if (!reader.number(key) || !reader.number(kind) || key != channel.down_key) {
-    ++counters_.stranger_datagrams;
+    ++counters_.rejected_datagrams;
     return;
   }
   if (kind == Kind::welcome && datagram.size() == payload_max) {
@@ -233,7 +233,7 @@ void UdpTransport::handle_server_datagram(ConnectionId connection, Channel& chan
     return ask(channel);
   }
   if (kind != Kind::open && kind != Kind::data) {
-    ++counters_.stranger_datagrams;
+    ++counters_.rejected_datagrams;
     return;
   }
   if (channel.state != Channel::State::open) ++counters_.ways_opened;

@@ -23,7 +23,7 @@ struct UdpCounters {
   std::uint64_t ways_opened = 0;  ///< connections whose datagrams get through
   std::uint64_t ways_failed =
       0;  ///< connections whose datagrams never did, which have the stream only
-  std::uint64_t stranger_datagrams =
+  std::uint64_t rejected_datagrams =
       0;  ///< of an unknown key, from a wrong address, or malformed: ignored, never answered
   std::uint64_t lost_datagrams = 0;  ///< that the operating system did not take
   std::uint64_t send_calls = 0;      ///< of the operating system, for datagrams

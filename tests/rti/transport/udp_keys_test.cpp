@@ -32,7 +32,7 @@ TEST(Udp, OnlyTheHostOfTheStreamMayOpenTheWayAndOnlyByProvingItsAddress) {
   settle();
   EXPECT_TRUE(stranger.receive().empty()) << "who knows the key but not the host";
   EXPECT_TRUE(honest.receive().empty()) << "no key, or a question shorter than its answer";
-  EXPECT_EQ(server.udp_counters().stranger_datagrams, 4u);
+  EXPECT_EQ(server.udp_counters().rejected_datagrams, 4u);
   EXPECT_TRUE(here.datagrams.empty());
 
   honest.send(port, control(up_key, 1, 0, 1200));
@@ -119,7 +119,7 @@ struct HandmadeServer {
     for (int i = 0; i < 3; ++i) client.poll(1ms, there);
   }
   std::uint64_t seen() {
-    return client.udp_counters().stranger_datagrams + there.datagrams.size() +
+    return client.udp_counters().rejected_datagrams + there.datagrams.size() +
            client.udp_counters().ways_opened;
   }
 };
@@ -136,18 +136,18 @@ TEST(Udp, AClientTakesNothingWithoutTheKeyThatTheServerNamedForItsDatagrams) {
                          kind == 2   ? 1200
                          : kind == 4 ? 9
                                      : 60));
-      EXPECT_EQ(server.client.udp_counters().stranger_datagrams,
+      EXPECT_EQ(server.client.udp_counters().rejected_datagrams,
                 static_cast<std::uint64_t>(++strangers));
       EXPECT_EQ(server.client.datagram_max(server.connection), 0u) << "the way stays shut";
     }
   }
   server.say({std::byte{1}, std::byte{2}});  // shorter than a key
-  EXPECT_EQ(server.client.udp_counters().stranger_datagrams,
+  EXPECT_EQ(server.client.udp_counters().rejected_datagrams,
             static_cast<std::uint64_t>(++strangers));
   EXPECT_TRUE(server.there.datagrams.empty());
 
   server.say(control(HandmadeServer::down_key, 2, HandmadeServer::nonce, 1199));
-  EXPECT_EQ(server.client.udp_counters().stranger_datagrams,
+  EXPECT_EQ(server.client.udp_counters().rejected_datagrams,
             static_cast<std::uint64_t>(++strangers))
       << "a welcome that does not show how long datagrams may be";
 
@@ -163,7 +163,7 @@ TEST(Udp, AClientTakesNothingWithoutTheKeyThatTheServerNamedForItsDatagrams) {
        {HandmadeServer::down_key ^ 1u, HandmadeServer::down_key, HandmadeServer::up_key})
     server.say(data(key, key == HandmadeServer::down_key ? "good" : "bad"));
   ASSERT_TRUE(server.pump_until([&] {
-    return server.client.udp_counters().stranger_datagrams >=
+    return server.client.udp_counters().rejected_datagrams >=
                static_cast<std::uint64_t>(strangers) + 2 &&
            !server.there.datagrams.empty();
   }));

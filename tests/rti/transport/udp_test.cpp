@@ -59,7 +59,7 @@ TEST_P(Udp, CarriesDatagramsWholeBothWays) {
   EXPECT_EQ(client.counters(connection).datagrams_sent,
             server.counters(here.open[0]).datagrams_received);
   EXPECT_EQ(server.udp_counters().ways_opened, 1u);
-  EXPECT_EQ(server.udp_counters().stranger_datagrams + client.udp_counters().stranger_datagrams,
+  EXPECT_EQ(server.udp_counters().rejected_datagrams + client.udp_counters().rejected_datagrams,
             0u);
 }
 
