@@ -50,7 +50,7 @@ struct Role {
 /// The facts beside regions that a filter uses, and whether it decides tiers. Callers may omit all
 /// other facts.
 struct Traits {
-  bool uses_roles = false, uses_headings = false, uses_flights = false, says_tiers = false;
+  bool uses_roles = false, uses_headings = false, uses_flights = false, decides_tiers = false;
 };
 
 /// How something moves until its next flight: its middle from (x, y) at `time` [s] on with that
@@ -171,7 +171,7 @@ std::optional<std::string> complaint_about(const std::string& expression,
                                            const FilterSettings& settings);
 
 /// True if both are valid expressions that differ only in spelling: spaces, parentheses, digits.
-bool say_the_same(const std::string& expression, const std::string& other);
+bool are_equivalent(const std::string& expression, const std::string& other);
 
 /// True if `expression` has a scheme with cells whose size it does not give, so that the settings'
 /// size applies.

@@ -333,7 +333,7 @@ std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSetting
   return build_filter(expression, settings);
 }
 
-bool say_the_same(const std::string& text, const std::string& other) {
+bool are_equivalent(const std::string& text, const std::string& other) {
   Expression one, another;
   return read_expression(text, one).empty() && read_expression(other, another).empty() &&
          one == another;

@@ -59,11 +59,11 @@ class Combination final : public ReviewedParts {
     ReviewedParts::remove_subscriber(subscriber);
   }
   std::span<const Change> match() override {
-    return matched(
-        [this](Subscriber subscriber, Entity entity, PairStates::Says says, PairStates::Level) {
-          return PairStates::Level{follow(
-              steps_, says, !swept_subscribers_.has(subscriber) && !swept_entities_.has(entity))};
-        });
+    return matched([this](Subscriber subscriber, Entity entity, PairStates::Decisions decisions,
+                          PairStates::Level) {
+      return PairStates::Level{follow(
+          steps_, decisions, !swept_subscribers_.has(subscriber) && !swept_entities_.has(entity))};
+    });
   }
 
  private:
@@ -83,7 +83,7 @@ class Combination final : public ReviewedParts {
 }  // namespace
 
 /// The stack is the bits of a number; an expression of 16 operands needs no more than 17 of them.
-bool follow(const std::vector<Step>& steps, std::uint16_t says, bool is_still) {
+bool follow(const std::vector<Step>& steps, std::uint16_t decisions, bool is_still) {
   std::uint32_t stack = 0;
   for (const Step step : steps) {
     const std::uint32_t last = stack & 1u;
@@ -91,7 +91,7 @@ bool follow(const std::vector<Step>& steps, std::uint16_t says, bool is_still) {
     else if (step == Step::conjunction) stack = (stack >> 1) & (~1u | last);
     else if (step == Step::alternative) stack = (stack >> 1) | last;
     else if (step == Step::is_still) stack = stack << 1 | (is_still ? 1u : 0u);
-    else stack = stack << 1 | (says >> static_cast<unsigned>(step) & 1u);
+    else stack = stack << 1 | (decisions >> static_cast<unsigned>(step) & 1u);
   }
   assert(stack <= 1);  // one answer is left
   return stack != 0;

@@ -19,6 +19,6 @@ std::unique_ptr<Filter> make_combination(std::vector<std::unique_ptr<Filter>> op
                                          std::vector<Step> steps);
 
 /// The result of `steps` on the operands' bits.
-bool follow(const std::vector<Step>& steps, std::uint16_t says, bool is_still);
+bool follow(const std::vector<Step>& steps, std::uint16_t decisions, bool is_still);
 
 }  // namespace rink::im

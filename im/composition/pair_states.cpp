@@ -38,9 +38,9 @@ void PairStates::touch_subscriber(Subscriber subscriber) {
 
 void PairStates::take(std::size_t k, std::span<const Change> changes) {
   assert(k < filter_max);
-  const auto bit = static_cast<Says>(1u << k);
+  const auto bit = static_cast<Decisions>(1u << k);
   for (const Change& change : changes) {
-    assert(change.transition != Transition::tier_changed);  // of pairs, a filter says in or out
+    assert(change.transition != Transition::tier_changed);  // an operand only lets pairs in or out
     if (change.transition == Transition::entered)
       news_.push_back({change.subscriber, change.entity, bit, 0});
     if (change.transition == Transition::left)
@@ -55,8 +55,8 @@ void PairStates::join_news() {
   for (std::size_t i = 0; i < news_.size(); ++i) {
     if (kept > 0 && !is_before(news_[kept - 1], news_[i])) {
       News& last = news_[kept - 1];
-      last.on = static_cast<Says>(last.on | news_[i].on),
-      last.off = static_cast<Says>(last.off | news_[i].off);
+      last.on = static_cast<Decisions>(last.on | news_[i].on),
+      last.off = static_cast<Decisions>(last.off | news_[i].off);
     } else {
       news_[kept++] = news_[i];
     }
@@ -69,7 +69,7 @@ void PairStates::check() const {
     for (std::size_t i = 1; i < entries.size(); ++i)
       assert(entries[i - 1].entity < entries[i].entity);
     for ([[maybe_unused]] const Entry& entry : entries.span()) {
-      assert(entry.says != 0 || entry.level != 0);
+      assert(entry.decisions != 0 || entry.level != 0);
       assert(entry.level <= filter_max);
     }
   }

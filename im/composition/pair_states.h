@@ -19,7 +19,7 @@ namespace rink::im {
 class PairStates {
  public:
   /// Bit k: filter k holds the pair relevant.
-  using Says = std::uint16_t;
+  using Decisions = std::uint16_t;
   static constexpr std::size_t filter_max = 16;
   /// 0: irrelevant; else 1 + tier.
   using Level = std::uint16_t;
@@ -34,8 +34,9 @@ class PairStates {
 
   /// Takes the changes of filter `k` at this match; to be called for each of them before `review`.
   void take(std::size_t k, std::span<const Change> changes);
-  /// Asks `decide(subscriber, entity, says, was)` for the level of each pair about which something
-  /// was taken, and appends what changed to `changes`, ordered. Returns how many it asked about.
+  /// Asks `decide(subscriber, entity, decisions, was)` for the level of each pair about which
+  /// something was taken, and appends what changed to `changes`, ordered. Returns how many it asked
+  /// about.
   template <class Decide>
   std::size_t review(const Decide& decide, Buffer<Change>& changes);
   /// Asserts that lists are in order and keep no pair that no filter holds relevant.
@@ -44,13 +45,13 @@ class PairStates {
  private:
   struct Entry {
     Entity entity;
-    Says says;
+    Decisions decisions;
     Level level;
   };
   struct News {
     Subscriber subscriber;
     Entity entity;
-    Says on, off;
+    Decisions on, off;
   };
   /// That of the entity; null if there is none.
   static Entry* find(Buffer<Entry>& entries, Entity entity);
@@ -71,9 +72,9 @@ void PairStates::look(const News& news, Entry entry, const Decide& decide,
                       Buffer<Change>& changes) {
   const Level was = entry.level;
   // A filter reports changes only: no pair enters twice, or leaves without having entered.
-  assert((entry.says & news.on) == 0 && (news.off & ~entry.says) == 0);
-  entry.says = static_cast<Says>((entry.says | news.on) & ~news.off);
-  entry.level = decide(news.subscriber, news.entity, entry.says, was);
+  assert((entry.decisions & news.on) == 0 && (news.off & ~entry.decisions) == 0);
+  entry.decisions = static_cast<Decisions>((entry.decisions | news.on) & ~news.off);
+  entry.level = decide(news.subscriber, news.entity, entry.decisions, was);
   assert(entry.level <= filter_max);
   const auto tier = static_cast<std::uint8_t>(entry.level == 0 ? 0 : entry.level - 1);
   if ((was == 0) != (entry.level == 0))
@@ -81,7 +82,7 @@ void PairStates::look(const News& news, Entry entry, const Decide& decide,
         {news.subscriber, news.entity, was == 0 ? Transition::entered : Transition::left, tier});
   else if (was != entry.level)
     changes.push_back({news.subscriber, news.entity, Transition::tier_changed, tier});
-  if (entry.says != 0 || entry.level != 0) merged_.push_back(entry);
+  if (entry.decisions != 0 || entry.level != 0) merged_.push_back(entry);
 }
 
 template <class Decide>

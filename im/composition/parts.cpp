@@ -70,7 +70,7 @@ Traits Parts::traits() const {
   for (const auto& part : parts_) {
     const Traits own = part->traits();
     all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings,
-        all.uses_flights |= own.uses_flights, all.says_tiers |= own.says_tiers;
+        all.uses_flights |= own.uses_flights, all.decides_tiers |= own.decides_tiers;
   }
   return all;
 }

@@ -31,8 +31,8 @@ class ReviewedParts : public Parts {
   }
 
  protected:
-  /// Lets every part match and calls `decide(subscriber, entity, says, was)` for the level of each
-  /// pair about which one of them changed its decision. Returns the changes to report.
+  /// Lets every part match and calls `decide(subscriber, entity, decisions, was)` for the level of
+  /// each pair about which one of them changed its decision. Returns the changes to report.
   template <class Decide>
   std::span<const Change> matched(const Decide& decide) {
     for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());

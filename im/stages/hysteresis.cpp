@@ -33,9 +33,8 @@ class Hysteresis final : public ReviewedParts {
     parts_[1]->set_swept_subscription_region(subscriber, grown(from, margin_), grown(to, margin_));
   }
   std::span<const Change> match() override {
-    return matched([this](Subscriber, Entity, PairStates::Says says, PairStates::Level was) {
-      return decide(says, was);
-    });
+    return matched([this](Subscriber, Entity, PairStates::Decisions decisions,
+                          PairStates::Level was) { return decide(decisions, was); });
   }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
@@ -43,8 +42,8 @@ class Hysteresis final : public ReviewedParts {
   }
 
  private:
-  PairStates::Level decide(PairStates::Says says, PairStates::Level was) {
-    const bool enters = (says & 1u) != 0, stays = was != 0 && (says & 2u) != 0;
+  PairStates::Level decide(PairStates::Decisions decisions, PairStates::Level was) {
+    const bool enters = (decisions & 1u) != 0, stays = was != 0 && (decisions & 2u) != 0;
     if (!enters && stays) ++stayed_;
     return PairStates::Level{enters || stays};
   }

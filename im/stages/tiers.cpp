@@ -35,11 +35,12 @@ class Tiers final : public ReviewedParts {
       parts_[1 + k]->set_subscription_region(subscriber, ring_of(region, fractions_[k]));
   }
   std::span<const Change> match() override {
-    const auto level = [this](Subscriber, Entity, PairStates::Says says, PairStates::Level) {
-      if ((says & 1u) == 0) return PairStates::Level{0};
-      const auto tier =
-          std::min(static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(says >> 1))),
-                   fractions_.size());
+    const auto level = [this](Subscriber, Entity, PairStates::Decisions decisions,
+                              PairStates::Level) {
+      if ((decisions & 1u) == 0) return PairStates::Level{0};
+      const auto tier = std::min(
+          static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(decisions >> 1))),
+          fractions_.size());
       return static_cast<PairStates::Level>(1 + tier);
     };
     const std::span<const Change> changes = matched(level);
@@ -49,7 +50,7 @@ class Tiers final : public ReviewedParts {
   }
   Traits traits() const override {
     Traits own = Parts::traits();
-    own.says_tiers = true;
+    own.decides_tiers = true;
     return own;
   }
   void list_counts(std::vector<StageCount>& counts) const override {

@@ -44,7 +44,7 @@ void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary&
   reader.choose("modes", result.modes, vocabulary.modes);
   reader.judged(
       "schemes", result.schemes,
-      [](const std::string& text) { return im::complaint_about(text, {}); }, im::say_the_same);
+      [](const std::string& text) { return im::complaint_about(text, {}); }, im::are_equivalent);
   reader.choose("policies", result.policies, vocabulary.policies);
   reader.whole_numbers("clients", result.clients, 1, 100'000);
   reader.whole_numbers("pucks", result.pucks, 0, 1'000'000);

@@ -11,7 +11,7 @@
 
 namespace rink::loadgen {
 
-bool has_regions(const Cell& cell) { return !im::say_the_same(cell.scheme, "none"); }
+bool has_regions(const Cell& cell) { return !im::are_equivalent(cell.scheme, "none"); }
 
 namespace {
 

@@ -23,8 +23,8 @@ void ScopeMatcher::match(std::span<const im::Change> changes, std::vector<Object
 void ScopeMatcher::apply_filter_changes(std::span<const im::Change> changes) {
   // All memberships come first: the attributes in scope may depend on several regions.
   Subscriptions& subscriptions = parts_.subscriptions;
-  const bool says_tiers = parts_.turns.says_tiers();
-  for (const im::Change& each : changes) subscriptions.take(each, says_tiers);
+  const bool decides_tiers = parts_.turns.decides_tiers();
+  for (const im::Change& each : changes) subscriptions.take(each, decides_tiers);
   for (const im::Change& each : changes) {
     const DeclaredInterest& declared = subscriptions.of(subscriptions.federate_of(each.subscriber));
     if (declared.is_changed) continue;
@@ -163,7 +163,7 @@ void ScopeMatcher::reconsider(const DeclaredInterest& declared, ObjectSlot slot)
 void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& interest,
                           ObjectSlot slot, AttributeSet is) {
   const AttributeSet was = interest.attributes_in_scope(slot, parts_.objects[slot].object_class);
-  if (parts_.turns.says_tiers() && !is.is_empty())
+  if (parts_.turns.decides_tiers() && !is.is_empty())
     parts_.turns.place(*interest.turns, declared, slot, was.is_empty());
   // An object whose scope is as before is touched, too: its subscription may be passive now.
   if (was != is || !is.is_empty()) parts_.scopes.touch(slot);

@@ -197,7 +197,7 @@ void Subscriptions::inform_headings(std::uint32_t federate) {
     if (each.is_placed) facts_.inform_heading(federate, each.subscriber);
 }
 
-void Subscriptions::take(const im::Change& change, bool says_tiers) {
+void Subscriptions::take(const im::Change& change, bool decides_tiers) {
   std::vector<Regional>& regionals = federates_[subscribers_[change.subscriber]]->regionals;
   const auto regional = std::ranges::find_if(regionals, [&](const Regional& each) {
     return each.is_placed && each.subscriber == change.subscriber;
@@ -206,7 +206,7 @@ void Subscriptions::take(const im::Change& change, bool says_tiers) {
   const bool has_left = change.transition == im::Transition::left;
   if (has_left) regional->inside.erase(change.entity);
   else regional->inside.insert(change.entity);  // it may be inside already and only change its tier
-  if (says_tiers) set_tier(*regional, change.entity, has_left ? 0u : change.tier);
+  if (decides_tiers) set_tier(*regional, change.entity, has_left ? 0u : change.tier);
 }
 
 void Subscriptions::forget(im::Entity entity) {

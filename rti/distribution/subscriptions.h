@@ -103,7 +103,7 @@ class Subscriptions {
     return subscribers_[subscriber];
   }
   /// The filter lets an entity through, or no longer, or puts it into another tier.
-  void take(const im::Change& change, bool says_tiers);
+  void take(const im::Change& change, bool decides_tiers);
   /// The filter's number is free now.
   void forget(im::Entity entity);
   /// True if the subscription's region overlaps an update region; where the filter decides, as of

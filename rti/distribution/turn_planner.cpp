@@ -16,7 +16,7 @@ TurnPlanner::TurnPlanner(im::Filter& filter, const ObjectTable& objects, const R
       regions_(regions),
       subscriptions_(subscriptions),
       facts_(facts),
-      says_tiers_(filter.traits().says_tiers),
+      decides_tiers_(filter.traits().decides_tiers),
       budget_(filter.priority() ? filter.priority()->budget() : 0) {}
 
 /// True if the object is in scope by a subscription on which the filter does not decide.
@@ -49,7 +49,7 @@ std::uint32_t TurnPlanner::tier_of(const DeclaredInterest& declared, ObjectSlot 
 
 void TurnPlanner::place(Turns& turns, const DeclaredInterest& declared, ObjectSlot slot,
                         bool is_new) const {
-  assert(says_tiers_);
+  assert(decides_tiers_);
   const std::uint32_t tier = tier_of(declared, slot);
   bool is_changed = false;
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {

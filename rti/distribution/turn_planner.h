@@ -17,10 +17,10 @@ class TurnPlanner {
   TurnPlanner(im::Filter& filter, const ObjectTable& objects, const RegionTable& regions,
               const Subscriptions& subscriptions, const FilterFacts& facts);
 
-  bool says_tiers() const { return says_tiers_; }
+  bool decides_tiers() const { return decides_tiers_; }
   bool has_budget() const { return budget_ > 0; }
   /// True if federates have turns at all.
-  bool is_needed() const { return says_tiers_ || has_budget(); }
+  bool is_needed() const { return decides_tiers_ || has_budget(); }
 
   void begin_match() { ++match_; }
   /// Puts an object in scope into the nearest tier in which some subscription has it; into none if
@@ -42,7 +42,7 @@ class TurnPlanner {
   const RegionTable& regions_;
   const Subscriptions& subscriptions_;
   const FilterFacts& facts_;
-  const bool says_tiers_;
+  const bool decides_tiers_;
   const std::size_t budget_;  ///< of the filter's priority [bytes]; 0: none
   std::uint64_t match_ = 0;   ///< number of the last match
   Bitmap put_off_, sent_;     ///< of the federate whose budget is shared out; members to reuse

@@ -153,7 +153,7 @@ TEST(Traits, SayWhatAFilterMakesUseOf) {
     const Traits traits = make_filter(expression, {})->traits();
     return std::string(traits.uses_roles ? "roles " : "") +
            (traits.uses_headings ? "headings " : "") + (traits.uses_flights ? "flights " : "") +
-           (traits.says_tiers ? "tiers" : "");
+           (traits.decides_tiers ? "tiers" : "");
   };
   for (const char* plain : {"none", "region", "aura and not sight",
                             "grid with hysteresis(margin=1) with dwell(matches=3) with priority"})

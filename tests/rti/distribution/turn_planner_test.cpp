@@ -13,7 +13,7 @@ namespace rink::rti {
 namespace {
 
 TEST(ATurnPlanner, LetsThoseOfAFartherTierWaitForTheirTurn) {
-  Parts parts({.says_tiers = true});
+  Parts parts({.decides_tiers = true});
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   parts.turns.begin_match();
   parts.match(
@@ -31,7 +31,7 @@ TEST(ATurnPlanner, LetsThoseOfAFartherTierWaitForTheirTurn) {
 }
 
 TEST(ATurnPlanner, LetsNobodyWaitWhoIsHeardOfWithoutTheFilter) {
-  Parts parts({.says_tiers = true});
+  Parts parts({.decides_tiers = true});
   parts.subscriptions.subscribe(1, body_class, {parts.one, parts.one}, no_region);
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   parts.match({parts.change(im::Transition::entered, 1, 3)});
@@ -47,7 +47,7 @@ TEST(ATurnPlanner, LetsNobodyWaitWhoIsHeardOfWithoutTheFilter) {
 /// Whichever tier it is in, nobody is told of more seldom, nor more often: once in 2^k matches in a
 /// row, tier 6 being the farthest there is.
 TEST(ATurnPlanner, TellsOfTierKOnceInTwoToTheKMatches) {
-  Parts parts({.says_tiers = true});
+  Parts parts({.decides_tiers = true});
   while (parts.objects.slot_count() < 300) parts.add_object(puck_class);
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   const auto tier_of = [](ObjectSlot slot) { return static_cast<std::uint8_t>(slot % 9); };
@@ -75,7 +75,7 @@ TEST(ATurnPlanner, TellsOfTierKOnceInTwoToTheKMatches) {
 }
 
 TEST(ATurnPlanner, GoesByTheNearestOfTheTiersThatSubscriptionsHaveAnObjectIn) {
-  Parts parts({.says_tiers = true});
+  Parts parts({.decides_tiers = true});
   const auto tier_of = [&](ObjectSlot slot) {
     std::uint32_t tier = 0;
     for (std::uint32_t k = 1; k <= Turns::tier_max; ++k)
@@ -97,7 +97,7 @@ TEST(ATurnPlanner, GoesByTheNearestOfTheTiersThatSubscriptionsHaveAnObjectIn) {
 
 /// What is late of it must not wait for the turn of a farther tier.
 TEST(ATurnPlanner, TellsAtOnceOfWhoChangesTiers) {
-  Parts parts({.says_tiers = true});
+  Parts parts({.decides_tiers = true});
   parts.subscriptions.subscribe(1, body_class, {parts.both, parts.both}, parts.view());
   parts.match({parts.change(im::Transition::entered, 1, 6)});
   FederateInterest& interest = parts.scopes.of(1);
