@@ -101,15 +101,15 @@ void add_options(game::Flags& flags, Options& options) {
       .shows_default();
   flags
       .option("--first", options.first,
-              "the first bot's bat; the others take the following ones, and who asks for one "
-              "that is taken or not there any that is free")
+              "the first bot's bat; the others take the following ones, or any free one where "
+              "that is taken or absent")
       .check(game::number_from(0, game::bats_max))
       .shows_default();
   flags.option("--plan", options.plan, "key log to play; without it the plan is made from the seed")
       .check(existing_file());
   flags
       .option("--players", options.players,
-              "who plays: random, by the plan; or by what they see of the game, " +
+              "kind of players: random, by the plan; or by what they see of the game, " +
                   game::listed(game::player_kinds()))
       .check(one_of([] {
         auto kinds = game::player_kinds();
@@ -119,9 +119,11 @@ void add_options(game::Flags& flags, Options& options) {
       .shows_default();
   flags
       .option("--scene", options.scene,
-              "the server's scene, of which players know the rules: goals, drag, thrust")
+              "the server's scene, of which players know the rules: goals, drag, acceleration")
       .shows_default();
-  flags.option("--seed", options.seed, "of the plan, of players, and of what evidence is taken of")
+  flags
+      .option("--seed", options.seed,
+              "seed of the plan, of players, and of the choice of watched bots")
       .check(game::seed_number())
       .shows_default();
   flags
@@ -130,8 +132,7 @@ void add_options(game::Flags& flags, Options& options) {
       .check(game::number_from(1e-9, 1e6))
       .shows_default();
   flags
-      .option("--view-area", options.view_area,
-              "area of a bot's view [m^2] instead; 0: as --view says")
+      .option("--view-area", options.view_area, "area of a bot's view [m^2] instead; 0: use --view")
       .check(game::number_from(0.0, game::view_area_max))
       .shows_default();
   flags
@@ -142,13 +143,13 @@ void add_options(game::Flags& flags, Options& options) {
       .shows_default();
   flags
       .flag("--regions,!--no-regions", options.declares_regions,
-            "whether bots declare their views as regions, or subscribe to everything: under "
-            "none, which looks at no places, that is the same for less")
+            "whether bots declare their views as regions, or subscribe to everything, which "
+            "under the scheme none is equal and cheaper")
       .shows_default();
   flags
       .flag("--extrapolate,!--no-extrapolate", options.extrapolates,
-            "whether what is told positions alone (periodic) is believed ahead of the last by "
-            "the velocity between the last two, or there")
+            "whether entities updated by positions alone (periodic) are extrapolated from the "
+            "last position by the velocity between the last two, or shown there")
       .shows_default();
   flags
       .option("--start", options.start_s,
@@ -165,9 +166,8 @@ void add_options(game::Flags& flags, Options& options) {
   flags.option("--patience", options.patience_s, "seconds to wait for the start")
       .check(game::number_from(0.001, game::seconds_max))
       .shows_default();
-  flags.option(
-      "--evidence", options.trace,
-      "file for what some of the bots heard and believed (docs/metrics.md), as JSON lines");
+  flags.option("--evidence", options.trace,
+               "file for the trace of some of the bots (docs/metrics.md), as JSON lines");
   flags.option("--report", options.report, "file for the measurements, as JSON");
 }
 

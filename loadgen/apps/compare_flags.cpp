@@ -10,15 +10,15 @@ namespace {
 
 constexpr const char* footer = R"(
 The folder then holds runs.jsonl (a line per run), summary.csv (means over seeds with 95 % intervals), comparisons.csv
-(ratios to the baseline, paired by seed), tidy.csv (an observation per line; data-dictionary.csv says what each is),
+(ratios to the baseline, paired by seed), tidy.csv (an observation per line; data-dictionary.csv defines each figure),
 report.html (reads offline), plots/ (each plot as .svg and its data as .csv), provenance.json, keys/ (the key log of each game) and cells/ (the reports of the processes).
 
 Exit status: 0 all runs valid; 2 bad usage, experiment or scene; 3 some run does not count; 4 no run counts;
              5 results could not be written, or may not be replaced; 6 an --assert failed; 7 the table could not be
              printed (the folder is complete); 8 a baseline that no cell has; 9 intervals are wider than --until-width
              asks for after --seeds replications; 10 the folder of --from lacks a file, has one altered or is of another
-             version; 11 what --from repeats says something else; 12 a relevance expression that is none; 129 the terminal went
-             away; 130 interrupted (what was measured is kept).
+             version; 11 the repetition by --from gives other figures; 12 a relevance expression is faulty; 129 the terminal
+             closed; 130 interrupted (what was measured is kept).
 
 Example: rink compare gains --out gains --assert 'filter_recall[scheme=region] >= 0.99')";
 
@@ -33,10 +33,11 @@ std::string schemes_and_stages() {
     }
     return text + line + "\n";
   };
-  return lines("\nSchemes, also put together with and, or, not and parentheses:\n",
+  return lines("\nSchemes, which and, or, not and parentheses combine:\n",
                rink::im::filter_names()) +
          lines(
-             "\nStages, each behind any of them after with, as in \"aura and not sight with "
+             "\nStages, each of which may follow any scheme after with, as in \"aura and not sight "
+             "with "
              "hysteresis(margin=0.3)\" (docs/im.md):\n",
              rink::im::stage_names());
 }
@@ -76,42 +77,43 @@ void add_options(game::Flags& flags, CompareOptions& options) {
   flags.option("--out", options.out,
                "folder for the results (default: report, or report-2, ... if taken)");
   flags.flag("--force", options.may_replace,
-             "replace results that are already there; with --resume: go on even if experiment or "
-             "program have changed");
+             "replace existing results; with --resume: continue even if experiment or program have "
+             "changed");
   const game::Flag resume = flags.flag("--resume", options.is_resumed,
-                                       "go on where an interrupted or killed run of the same "
+                                       "continue where an interrupted or killed run of the same "
                                        "experiment stopped (in --out, or the last report)");
   flags
       .flag("--dry-run", options.is_dry_run,
-            "print the cells, their order and the time they take, and touch nothing")
+            "print the cells, their order and the time they take, and run nothing")
       .excludes(resume);
   flags
       .option("--assert", options.assertions,
-              "demand of the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be "
-              "given again (docs/experiments.md)")
+              "condition on the summary, e.g. 'update_age_ms_p99[scheme=region] < 100'; may be "
+              "repeated (docs/experiments.md)")
       .repeats();
   flags
       .option("--from", options.from,
-              "repeat the experiment of this report folder, which must be as it was written, "
-              "and compare")
+              "repeat the experiment of this report folder, which must be unaltered, and compare "
+              "the results")
       .check(game::existing_folder())
       .excludes(flags.find("EXPERIMENT"))
       .excludes(resume);
   flags
       .option("--trace", options.trace,
-              "write where everything truly was into this report folder, for "
+              "write all true positions into this report folder, for "
               "docs/analysis/recompute.py (some 10 MB for each run of 100 clients)")
       .check(game::existing_folder())
       .excludes(flags.find("EXPERIMENT"))
       .excludes(flags.find("--from"))
       .excludes(resume);
   flags.flag("--keep-evidence", options.keeps_traces,
-             "keep the evidence of points of curves too, for docs/analysis/recompute.py; without "
-             "it, --from with it makes the same again");
+             "keep the evidence of points of curves too, for docs/analysis/recompute.py; --from "
+             "with this flag can make it later");
   flags
-      .option("--seeds", options.seeds,
-              "replications of every cell: so many of the experiment's seeds, and the numbers "
-              "after them; with --until-width at most so many")
+      .option(
+          "--seeds", options.seeds,
+          "number of replications of every cell: the experiment's first seeds, then the numbers "
+          "after them; with --until-width the most replications")
       .check(game::number_from(1, 10'000));
   flags.option(
       "--until-width",
@@ -122,8 +124,8 @@ void add_options(game::Flags& flags, CompareOptions& options) {
           throw game::FlagError("", error.what());
         }
       },
-      "replications until the 95 % interval of every row's payload is at most so wide, such as 5%: "
-      "from its middle to either end, of the mean (docs/experiments.md)");
+      "add replications until the 95 % interval of every row's payload is at most so wide, such as "
+      "5% of the mean from its middle to either end (docs/experiments.md)");
   flags.option("--programs", options.programs,
                "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
   add_saturate_options(flags, options.saturate);

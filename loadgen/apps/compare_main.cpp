@@ -186,7 +186,7 @@ CompareStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
 bool judge(const std::vector<Assertion>& assertions, const Experiment& experiment,
            const Outcome& outcome) {
   if (outcome.was_interrupted && !assertions.empty())
-    complain("interrupted, so no --assert was judged");
+    complain("interrupted, so no --assert was checked");
   if (outcome.was_interrupted || assertions.empty()) return true;
   const auto rows = summarise(outcome.runs, experiment.baseline());
   bool do_all_hold = true;
@@ -337,7 +337,7 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
 CompareStatus trace(const std::filesystem::path& folder) {
   const std::size_t written = rink::loadgen::write_traces(folder);
   (written > 0 ? std::cout : std::cerr) << "rink-compare: " << folder.string() << ": traces of "
-                                        << written << " valid runs that left evidence\n";
+                                        << written << " valid runs that have evidence\n";
   return written > 0 ? success : nothing_measured;
 }
 

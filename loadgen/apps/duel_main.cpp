@@ -122,10 +122,10 @@ int main(int count, char** words) {
   flags.version(game::version_line("rink-duel"));
   Options options;
   flags.option("--connect", options.connect, "host, as ADDRESS:PORT").shows_default();
-  flags.option("--players", options.players, "who they are")
+  flags.option("--players", options.players, "the kind of both players")
       .check(game::one_of(game::player_kinds()))
       .shows_default();
-  flags.option("--matches", options.matches, "to play, with a rematch between")
+  flags.option("--matches", options.matches, "number of matches, with a rematch after each")
       .check(game::number_from(1, 1000))
       .shows_default();
   flags
@@ -136,7 +136,7 @@ int main(int count, char** words) {
   flags.option("--frame-rate", options.frame_hz, "frames per second of each client")
       .check(game::number_from(10.0, 1000.0))
       .shows_default();
-  flags.option("--seed", options.seed, "of what they do")
+  flags.option("--seed", options.seed, "seed of their decisions")
       .check(game::seed_number())
       .shows_default();
   flags.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") +

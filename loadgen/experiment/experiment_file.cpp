@@ -66,7 +66,7 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
   reader.number("warm_up_s", result.warm_up_s, "a number from 0 to 600",
                 [](double v) { return v >= 0.0 && v <= 600.0; });
   reader.number("view_area", result.view_area,
-                "a number from 0 (as view_fraction says) to 1e12, and above 0 only beside a single "
+                "a number from 0 (use view_fraction) to 1e12, and above 0 only beside a single "
                 "view_fraction",
                 [&result](double v) {
                   return v == 0.0 || (v > 0.0 && v <= 1e12 && result.view_fractions.size() == 1);
@@ -238,8 +238,8 @@ void expect_what_can_start_warm(const Experiment& experiment, const std::string&
     return;
   throw ExperimentError(
       file +
-      ": start_s above 0 with keys = live: players who decide on what they see press what nobody "
-      "knows beforehand; expected start_s = 0, keys = \"replay\", or players = \"random\"");
+      ": start_s above 0 with keys = live: the keys of players that decide by what they see are "
+      "not known beforehand; expected start_s = 0, keys = \"replay\", or players = \"random\"");
 }
 
 void expect_use_of_always(const Experiment& experiment, const std::string& file) {

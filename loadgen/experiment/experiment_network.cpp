@@ -26,7 +26,7 @@ void read_fraction(ExperimentReader& reader, const char* key, double& into) {
 void read_loss(ExperimentReader& reader, rti::PacketLoss& into) {
   if (auto chain = reader.table("gilbert_elliott")) {
     if (reader.has("loss") || reader.has("burst"))
-      chain->refuse_all("loss and burst say the same: allowed is one of both");
+      chain->refuse_all("loss and burst mean the same as gilbert_elliott: expected one of both");
     into = {};
     read_fraction(*chain, "to_bad", into.to_bad);
     read_fraction(*chain, "to_good", into.to_good);

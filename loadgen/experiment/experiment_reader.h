@@ -74,7 +74,7 @@ class ExperimentReader {
       for (auto other = into.begin(); other != one; ++other)
         if (are_alike(*one, *other))
           throw ExperimentError(file_ + ": " + prefix_ + key + ": '" + *other + "' and '" + *one +
-                                "' say the same: expected each once");
+                                "' mean the same: expected each once");
   }
 
   template <class Whole>

@@ -216,7 +216,7 @@ std::string words_for(const Repetition& repetition, const std::filesystem::path&
   };
   if (repetition.virtual_runs > 0)
     text += " " + count(repetition.virtual_same, repetition.virtual_runs) +
-            " runs in virtual time say the same in every figure;";
+            " runs in virtual time agree in every figure;";
   if (repetition.games > 0)
     text += " " + count(repetition.games_same, repetition.games) +
             " runs by the clock end in the same state, their payloads at most " +

@@ -38,10 +38,10 @@ constexpr std::array of_cells{
     Definition{"tick_rate_hz", "Hz", "update rate, frame rate",
                "Ticks of the server per second; interest is decided in each"},
     Definition{"threshold", "m", "dead-reckoning threshold",
-               "Error of its receivers at which a dead-reckoning policy tells them anew"},
+               "Error of its receivers at which a dead-reckoning policy sends an update"},
     Definition{"extrapolate", "1", "dead reckoning, first order",
-               "1 where clients that are told positions alone show entities ahead of the last one, "
-               "0 where not"},
+               "1 where clients extrapolate entities that are updated by positions alone, 0 where "
+               "not"},
     Definition{"seed", "1", "replication",
                "Seed of the population and of the keys: replications differ in it alone"},
     Definition{"valid", "", "",
@@ -212,7 +212,7 @@ constexpr std::array of_comparisons{
     Definition{"pairs", "1", "sample size",
                "seeds of which cell and baseline both have the figure"},
     Definition{"difference", "", "significance",
-               "what the interval says of the difference, in words"},
+               "significance of the difference by its interval, in words"},
     Definition{"baseline", "", "", "all that the baseline is, in words"},
 };
 
@@ -244,8 +244,9 @@ constexpr std::array of_equal_errors{
     Definition{"points_below", "1", "",
                "settings with that recall and at most that error, for the seed with the fewest"},
     Definition{"points_above", "1", "", "those with a larger error"},
-    Definition{"payload_difference", "", "significance", "what the interval of payload_ratio says"},
-    Definition{"wire_difference", "", "significance", "what the interval of wire_ratio says"},
+    Definition{"payload_difference", "", "significance",
+               "significance by the interval of payload_ratio"},
+    Definition{"wire_difference", "", "significance", "significance by the interval of wire_ratio"},
 };
 
 constexpr std::array of_growths{

@@ -123,7 +123,7 @@ SectionContent reproduction(const Experiment& experiment, const Provenance& prov
 }
 
 constexpr const char* definitions =
-    "<p class=\"faint\">Payload is what the server hands to its transport; wire bytes are payload "
+    "<p class=\"faint\">Payload is what the server passes to its transport; wire bytes are payload "
     "of both directions plus 66 bytes per segment (Ethernet 14, IPv4 20, TCP with timestamps 32; "
     "a segment carries up to 1,448 bytes; those without payload, acknowledgements, are counted "
     "too). Displayed error: distance between where a client shows an entity at an instant and "
@@ -134,8 +134,8 @@ constexpr const char* definitions =
     "seed.</p>\n"
     "<p class=\"faint\">In the literature's terms: update age is update latency, key to effect "
     "input latency, late entry discovery latency. Displayed error is dead-reckoning error now, "
-    "the error at matched time is that at the time stamp. A replica is an entity as a client's "
-    "mirror has it; the area fraction is the area of a client's view divided by the field's. How "
+    "the error at matched time is that at the time stamp. A replica is a client's copy of an "
+    "entity; the area fraction is the area of a client's view divided by the field's. How "
     "many times more another filter or policy sends is the reduction factor. Costs of a tick are "
     "wall time; CPU time is that of whole processes.</p>\n";
 

@@ -88,7 +88,7 @@ TEST_F(CompareHelp, NamesEverySchemeAndStageWithItsParameters) {
 TEST_F(CompareCommandTest, AFolderWithoutEvidenceHasNoTraces) {
   ASSERT_EQ(exit_status_of(arguments("small.toml")), 0) << errors_;
   EXPECT_NE(exit_status_of({"--trace", (folder_ / "out").string()}), 0) << "the stubs left none";
-  EXPECT_THAT(errors_, HasSubstr("traces of 0 valid runs that left evidence"));
+  EXPECT_THAT(errors_, HasSubstr("traces of 0 valid runs that have evidence"));
   EXPECT_NE(exit_status_of({"--trace", (folder_ / "nowhere").string()}), 0);
   EXPECT_THAT(errors_, HasSubstr("nowhere"));
   std::filesystem::remove(folder_ / "out/scene.toml");

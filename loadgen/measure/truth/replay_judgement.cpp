@@ -112,7 +112,7 @@ void ReplayJudgement::judge_entries(double instant_s) {
 void ReplayJudgement::judge_decision(const game::ServerTrace::Decision& decision) {
   if (decision.player >= replay_.player_count())
     throw game::TraceError("the server's evidence has a decision for player " +
-                           std::to_string(decision.player) + ", who is not in its scene");
+                           std::to_string(decision.player) + ", which its scene lacks");
   const auto bat = replay_.bat_of(decision.player);
   if (!bat) return;
   chosen_.clear();

@@ -82,7 +82,7 @@ SectionContent cost_content(const Findings& findings) {
                   plain_number(100.0 * highest / budget_us) + " % of it" +
                   (has_mark ? "; the dashed line is where the server saturates."
                             : ", so the line where the server saturates lies beyond these plots.") +
-                  " A note above a bar says that fewer than 99 % of its ticks were on "
+                  " A note above a bar means that fewer than 99 % of its ticks were on "
                   "time.</p>\n<div class=\"plots small\">\n";
   const Axis shared = axis_around(0.0, has_mark ? std::max(highest, budget_us) : highest, false);
   for (Chart& plot : plots) {

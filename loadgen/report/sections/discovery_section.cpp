@@ -152,8 +152,9 @@ void add_kind(SectionContent& content, const Findings& findings, const Discovere
 
 SectionContent discovery_content(const Findings& findings) {
   SectionContent content{
-      "<p class=\"faint\">Discovery latency by truth: what a player should have known, and when it "
-      "was told. All cells are in discovery.csv.</p>\n<div class=\"plots\">\n"};
+      "<p class=\"faint\">Discovery latency by truth: from the instant at which an entity became "
+      "relevant to "
+      "its first delivered state. All cells are in discovery.csv.</p>\n<div class=\"plots\">\n"};
   for (const Discovered& kind : discovered_kinds) add_kind(content, findings, kind);
   content.html += "</div>\n";
   return content;

@@ -144,9 +144,10 @@ void add_plot(SectionContent& content, const Curves& of, const std::vector<const
   }
   if (!has_points(plot))
     return content.add_absence("No run has a displayed error, so no curve can be drawn.");
-  plot.alternative = "Lower left is better. Each curve is one policy under " + of.scheme +
-                     ", along its ticks per second or its thresholds; how far apart two curves are "
-                     "above an error is what the table says.";
+  plot.alternative =
+      "Lower left is better. Each curve is one policy under " + of.scheme +
+      ", along its ticks per second or its thresholds; the table gives the distance of "
+      "two curves above an error.";
   content.add(to_svg(plot), plot.alternative, std::move(table));
 }
 

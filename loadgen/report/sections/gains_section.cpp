@@ -41,8 +41,8 @@ void add_scatter(SectionContent& content, const Findings& findings) {
     return content.add_absence(
         "No run has a displayed error, so bytes cannot be drawn against it.");
   plot.alternative =
-      "Lower left is better: fewer bytes and smaller error. Entities that a client was never told "
-      "of have no error here: read recall beside it." +
+      "Lower left is better: fewer bytes and smaller error. Entities that a client never "
+      "discovered have no error here: read recall beside it." +
       largest_crowd_words(findings);
   content.add(to_svg(plot), plot.alternative, std::move(table));
 }
@@ -107,7 +107,7 @@ void add_gains(SectionContent& content, const Findings& findings) {
   const std::string baseline = findings.experiment.baseline().words();
   if (!has_other)
     return content.add_absence("There is no valid run of the baseline (" + baseline +
-                               ") beside another, so gains cannot be told.");
+                               ") beside another, so gains are unknown.");
   PlotTable table{"gains",
                   "Payload bytes of the baseline, " + baseline +
                       ", divided by those of each cell, paired by seed, beside its errors",

@@ -177,7 +177,7 @@ SectionContent latency_content(const Findings& findings) {
   SectionContent content;
   content.html +=
       "<p class=\"faint\">Each curve ends where fewer than ten samples lie beyond, since the "
-      "sample says nothing after that. All valid replications of a cell are taken together; where "
+      "sample supports nothing beyond. All valid replications of a cell are taken together; where "
       "only percentiles of each run are kept, marks are their means over replications.</p>\n";
   for (const Latency& kind : kinds) {
     if (!add_latency(content, findings, kind))

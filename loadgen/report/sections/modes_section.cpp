@@ -117,9 +117,9 @@ void add_bars(SectionContent& content, const Findings& findings) {
 SectionContent modes_content(const Findings& findings) {
   SectionContent content{
       "<p class=\"faint\">The same scenes and keys with a server, which simulates everything and "
-      "tells each client what concerns it, and among peers, each of which is a player's and "
-      "simulates a "
-      "part of the field, to the same state hash. A server's bytes are all its clients' together; "
+      "sends each client what is relevant to it, and among peers, one for each player, which "
+      "simulate a part of the field each, to the same state hash. A server's bytes are all its "
+      "clients' together; "
       "among peers each carries its own.</p>\n<div class=\"plots\">\n"};
   std::string absences;
   for (const Shown& shown : against_clients)

@@ -107,7 +107,7 @@ constexpr Quality qualities[] = {
 
 /// One row per cell, with the columns that any cell has.
 void add_quality_table(SectionContent& content, const Findings& findings) {
-  PlotTable table{"quality", "What truth says of each cell: means over replications",
+  PlotTable table{"quality", "Quality of each cell by truth: means over replications",
                   cell_columns()};
   for (const Quality& quality : qualities) table.columns.emplace_back(quality.name);
   std::string body;

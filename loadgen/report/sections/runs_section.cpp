@@ -123,7 +123,7 @@ SectionContent generator_content(const Findings& findings) {
   SectionContent content;
   const auto columns = present(generator_columns, findings.runs);
   if (columns.empty()) {
-    content.add_absence("No run says how its load generator fared.");
+    content.add_absence("No run reports the state of its load generator.");
     return content;
   }
   content.html +=

@@ -13,7 +13,7 @@ ReportSection saturation_section(std::span<const Saturation> found, const Servic
           " % of the ticks are on time and the 99th percentile of the update age stays below " +
           plain_number(level.age_p99_ms_max) +
           " ms.</p>\n<div class=\"scroll\"><table class=\"wide\"><thead><tr><th "
-          "class=\"text\">filter</th><th>clients held</th><th>failed</th><th>foretold "
+          "class=\"text\">filter</th><th>clients held</th><th>failed</th><th>predicted "
           "(from)</th><th class=\"text\">why</th>"
           "<th>physics us/tick</th><th>filter us/tick</th><th>send us/tick</th><th>payload "
           "kB/s/client</th></tr></thead><tbody>\n";
@@ -35,8 +35,9 @@ ReportSection saturation_section(std::span<const Saturation> found, const Servic
   }
   html +=
       "</tbody></table></div>\n<p class=\"faint\">Costs and bytes are those of the last run that "
-      "held. Foretold is what the cost of the probes of fewer clients (up to the number in "
-      "brackets) says, as the better of a + b n and a n^b. Data: saturation.csv; every probe is in "
+      "held. Predicted is the crowd by the cost of the probes of fewer clients (up to the number "
+      "in "
+      "brackets), by the better of a + b n and a n^b. Data: saturation.csv; every probe is in "
       "runs.jsonl.</p>\n";
   return section;
 }

@@ -177,7 +177,7 @@ SectionContent stages_content(const Findings& findings) {
       "<p class=\"faint\">A curve joins expressions that differ in their numbers alone, which "
       "stand beside the marks, at " +
       std::to_string(client_counts(findings.lines).back()) +
-      " clients. Entities that a client was never told of have no error: read recall beside "
+      " clients. Entities that a client never discovered have no error: read recall beside "
       "it.</p>\n<div class=\"plots\">\n";
   by_error.alternative =
       "Lower left is better: fewer bytes and smaller error. A curve that lies left of and below "

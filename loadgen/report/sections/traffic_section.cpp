@@ -97,7 +97,7 @@ SectionContent traffic_content(const Findings& findings) {
        .table_name = "payload-against-clients",
        .title = "Payload to each client",
        .reading =
-           "Lower is better; a flat line says that a client's traffic does not depend on how many "
+           "Lower is better; a flat line means that a client's traffic does not depend on how many "
            "others there are. Bars: 95 % intervals of the mean."});
   add_plot(content, traffic,
            {.figure = on_the_wire,

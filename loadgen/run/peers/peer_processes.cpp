@@ -271,7 +271,7 @@ void PeerProcesses::add_decisions(game::ServerTrace& server, const game::Game& s
     for (const game::PeerTrace::Decision& decision : peer.decisions) {
       if (decision.peer >= bats.size())
         throw Failure{"peer " + std::to_string(peer.peer) + " decided for peer " +
-                      std::to_string(decision.peer) + ", who is not there"};
+                      std::to_string(decision.peer) + ", which does not exist"};
       std::vector<std::uint32_t>& scope =
           scopes[{decision.instant_s, *start.entity({bats[decision.peer]}).player}];
       scope.insert(scope.end(), decision.bodies.begin(), decision.bodies.end());

@@ -139,7 +139,7 @@ Judgement judgement_of(const RunRecord& record, const ServiceLevel& level) {
   }
   if (!record.keys_trouble.empty())
     return {Verdict::invalid,
-            "the bots, who measure the age of updates, fell behind: " + record.keys_trouble};
+            "the bots, which measure the age of updates, fell behind: " + record.keys_trouble};
   if (!record.ticks_on_time_fraction)
     return {Verdict::invalid, "the run has no ticks_on_time_fraction"};
   std::string why;

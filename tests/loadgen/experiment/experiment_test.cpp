@@ -67,7 +67,7 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
               AllOf(StartsWith("dir/x.toml:3: schemes"), HasSubstr("gird"), HasSubstr("none"),
                     HasSubstr("grid"), HasSubstr("region")));
   EXPECT_THAT(complaint_about(minimal + "schemes = ['aura', 'grid', ' (aura)']"),
-              HasSubstr("schemes: 'aura' and ' (aura)' say the same"));
+              HasSubstr("schemes: 'aura' and ' (aura)' mean the same"));
   EXPECT_THAT(complaint_about(minimal + "clients = [10,\n0]"),
               AllOf(StartsWith("dir/x.toml:4: clients = 0"), HasSubstr("from 1 to 100000")));
   EXPECT_THAT(complaint_about(minimal + "clients = []"), StartsWith("dir/x.toml:3: clients"));

@@ -46,7 +46,7 @@ TEST_F(ReportFolder, IsRepeatedWithTheSameFiguresThoughSceneAndExperimentHaveGon
   std::filesystem::remove(folder_ / "own.toml");
   std::filesystem::remove(folder_ / "small.toml");
   EXPECT_EQ(repeat(), 0) << said_;
-  EXPECT_THAT(printed_, HasSubstr("2 of 2 runs in virtual time say the same in every figure"));
+  EXPECT_THAT(printed_, HasSubstr("2 of 2 runs in virtual time agree in every figure"));
   EXPECT_EQ(run("compare --from " + file("second") + " --out " + file("third")), 0)
       << "what repeats is a report folder itself: " << said_;
 }
@@ -57,7 +57,7 @@ TEST_F(ReportFolder, OfRunsThatStartWarmHoldsTheirSavedGamesAndIsRepeatedFromThe
             "start_s = 2\n[[parts]]\nname = 'warm'\n[[parts]]\nname = 'warmer'\nstart_s = 3\n");
   ASSERT_EQ(make(), 0) << said_;
   EXPECT_EQ(repeat(), 0) << said_;
-  EXPECT_THAT(printed_, HasSubstr("4 of 4 runs in virtual time say the same in every figure"));
+  EXPECT_THAT(printed_, HasSubstr("4 of 4 runs in virtual time agree in every figure"));
   std::vector<std::string> saved;
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "first/keys"))
     if (entry.path().extension() == ".state")
@@ -73,11 +73,11 @@ TEST_F(ReportFolder, IsRepeatedWithTheReplicationsThatItHoldsWhateverItsExperime
   ASSERT_EQ(run("compare " + file("small.toml") + " --out " + file("first") + " --seeds 3"), 0)
       << said_;
   EXPECT_EQ(repeat(), 0) << said_;
-  EXPECT_THAT(printed_, AllOf(HasSubstr("6 of 6 runs in virtual time say the same in every figure"),
+  EXPECT_THAT(printed_, AllOf(HasSubstr("6 of 6 runs in virtual time agree in every figure"),
                               Not(HasSubstr("not repeated"))))
       << "the file says one seed";
   EXPECT_EQ(repeat(" --seeds 2"), 0) << said_;
-  EXPECT_THAT(printed_, HasSubstr("4 of 4 runs in virtual time say the same in every figure; 2 of "
+  EXPECT_THAT(printed_, HasSubstr("4 of 4 runs in virtual time agree in every figure; 2 of "
                                   "its runs were not repeated"));
 }
 
@@ -135,7 +135,7 @@ TEST_F(ReportFolder, HoldsRecordedKeysWhereverTheExperimentFoundThem) {
     EXPECT_EQ(run("compare --from " + file("recorded") + " --out " + file("second") + " --force"),
               0)
         << said_;
-    EXPECT_THAT(printed_, HasSubstr("2 of 2 runs in virtual time say the same in every figure"));
+    EXPECT_THAT(printed_, HasSubstr("2 of 2 runs in virtual time agree in every figure"));
   }
 }
 
@@ -145,7 +145,7 @@ TEST_F(ReportFolder, OfPartsIsRepeatedWithTheReplicationsOfEach) {
   ASSERT_EQ(run("compare " + file("small.toml") + " --out " + file("first") + " --seeds 2"), 0)
       << said_;
   EXPECT_EQ(repeat(), 0) << said_;
-  EXPECT_THAT(printed_, HasSubstr("8 of 8 runs in virtual time say the same in every figure"));
+  EXPECT_THAT(printed_, HasSubstr("8 of 8 runs in virtual time agree in every figure"));
 }
 
 TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun) {
@@ -153,7 +153,7 @@ TEST_F(ReportFolder, ThatSaysSomethingElseEndsWithAStatusOfItsOwnAndNamesTheRun)
   replace("first/runs.jsonl", "\"update_age_samples\":", "\"update_age_samples\":1");
   write_manifest(ResultsDirectory::resumed(folder_ / "first", content("first/runs.jsonl").size()));
   EXPECT_EQ(repeat(), 11);
-  EXPECT_THAT(said_, AllOf(HasSubstr("1 of 2 runs in virtual time say the same"),
+  EXPECT_THAT(said_, AllOf(HasSubstr("1 of 2 runs in virtual time agree"),
                            HasSubstr("-3-seed1: other figures in virtual time")));
 }
 
@@ -197,7 +197,7 @@ TEST_F(ReportFolder, KeepsTheEvidenceOfPointsOfCurvesIfAskedTo) {
   ASSERT_EQ(make(), 0) << said_;
   EXPECT_EQ(evidence_of_points("first"), 0);
   EXPECT_EQ(repeat(" --keep-evidence"), 0) << said_;
-  EXPECT_THAT(printed_, HasSubstr("3 of 3 runs in virtual time say the same in every figure"));
+  EXPECT_THAT(printed_, HasSubstr("3 of 3 runs in virtual time agree in every figure"));
   EXPECT_EQ(evidence_of_points("second"), 1);
 }
 
