@@ -151,11 +151,11 @@ void set_seeds(Experiment& experiment, std::uint32_t count) {
 
 /// Replications are added one by one until every row's payload is known to within
 /// `options.until_width` of itself, or there are `options.seeds`.
-Outcome run_until_narrow(Experiment& experiment, const CompareOptions& options,
-                         const Campaign& campaign, std::vector<RunRecord> kept,
-                         std::vector<WideRow>& wide) {
+CampaignResult run_until_narrow(Experiment& experiment, const CompareOptions& options,
+                                const Campaign& campaign, std::vector<RunRecord> kept,
+                                std::vector<WideRow>& wide) {
   assert(&campaign.experiment == &experiment && "what is run gains the seeds");
-  Outcome outcome;
+  CampaignResult outcome;
   for (std::uint32_t count = std::min(options.seeds, least_replications); count <= options.seeds;
        ++count) {
     set_seeds(experiment, count);
@@ -171,7 +171,7 @@ Outcome run_until_narrow(Experiment& experiment, const CompareOptions& options,
   return outcome;
 }
 
-CompareStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
+CompareStatus status_of(const CampaignResult& outcome, bool do_assertions_hold) {
   if (outcome.was_interrupted) return is_hung_up ? hung_up : interrupted;
   if (!outcome.output_failure.empty()) return output_failed;
   const auto valid = std::count_if(outcome.runs.begin(), outcome.runs.end(),
@@ -184,7 +184,7 @@ CompareStatus status_of(const Outcome& outcome, bool do_assertions_hold) {
 
 /// Prints the result of each assertion; true if all hold.
 bool judge(const std::vector<Assertion>& assertions, const Experiment& experiment,
-           const Outcome& outcome) {
+           const CampaignResult& outcome) {
   if (outcome.was_interrupted && !assertions.empty())
     complain("interrupted, so no --assert was checked");
   if (outcome.was_interrupted || assertions.empty()) return true;
@@ -287,10 +287,11 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
   if (search.is_wanted) search.allowed_clients = allowed_clients();
   std::vector<Saturation> found;
   std::vector<WideRow> wide;
-  Outcome outcome = search.is_wanted ? run_saturation(campaign, search, std::cerr, found)
-                    : options.until_width > 0.0
-                        ? run_until_narrow(experiment, options, campaign, continuation.kept, wide)
-                        : run_campaign(campaign, progress, continuation.kept);
+  CampaignResult outcome =
+      search.is_wanted ? run_saturation(campaign, search, std::cerr, found)
+      : options.until_width > 0.0
+          ? run_until_narrow(experiment, options, campaign, continuation.kept, wide)
+          : run_campaign(campaign, progress, continuation.kept);
   if (!outcome.runs.empty()) {
     std::vector<ReportSection> more_sections;
     if (options.saturate.is_wanted)

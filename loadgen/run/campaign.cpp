@@ -75,7 +75,7 @@ using Clock = std::chrono::steady_clock;
 /// as processors.
 class CellQueue {
  public:
-  CellQueue(const Campaign& campaign, Progress& progress, Outcome& outcome)
+  CellQueue(const Campaign& campaign, Progress& progress, CampaignResult& outcome)
       : experiment_(campaign.experiment),
         settings_(campaign.settings),
         results_(campaign.results),
@@ -175,7 +175,7 @@ class CellQueue {
   const RunnerSettings& settings_;
   ResultsDirectory& results_;
   Progress& progress_;
-  Outcome& outcome_;
+  CampaignResult& outcome_;
   const std::size_t processors_ = std::max(1u, std::thread::hardware_concurrency());
   Workers idle_workers_{static_cast<std::ptrdiff_t>(processors_)};
   Clock::time_point last_ = Clock::now();
@@ -185,9 +185,10 @@ class CellQueue {
 
 }  // namespace
 
-Outcome run_campaign(const Campaign& campaign, Progress& progress, std::vector<RunRecord> kept) {
+CampaignResult run_campaign(const Campaign& campaign, Progress& progress,
+                            std::vector<RunRecord> kept) {
   const Experiment& experiment = campaign.experiment;
-  Outcome outcome;
+  CampaignResult outcome;
   const std::vector<RunRecord> before = std::move(kept);
   outcome.runs = before;
   try {

@@ -16,7 +16,7 @@ namespace rink::loadgen {
 using KeyLogWriter = std::function<void(const Cell& cell, const std::filesystem::path& file)>;
 
 /// The result of a campaign.
-struct Outcome {
+struct CampaignResult {
   std::vector<RunRecord>
       runs;  ///< in the order of cells_of(), those that were kept from before among them
   bool was_interrupted = false;
@@ -35,8 +35,8 @@ struct Campaign {
 /// Runs, in their running_order(), every cell that is not among the `kept` runs of an earlier
 /// start, appending each record to the results. The key log of a game is written once, to their
 /// folder keys, and shared by all its cells. Throws ExperimentError, before the first cell runs.
-Outcome run_campaign(const Campaign& campaign, Progress& progress,
-                     std::vector<RunRecord> kept = {});
+CampaignResult run_campaign(const Campaign& campaign, Progress& progress,
+                            std::vector<RunRecord> kept = {});
 
 /// The `runs` of an earlier start that are cells of `experiment`, each once.
 std::vector<RunRecord> runs_to_keep(const Experiment& experiment,

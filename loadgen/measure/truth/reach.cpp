@@ -17,9 +17,9 @@ Reach::Reach(double time_s, double drag, double friction)
   assert(s_ > 0.0 && q_ > 0.0 && s_ <= time_s * (1.0 + 1e-12));
 }
 
-double Reach::of(double speed, double thrust) const {
-  assert((friction_ == 0.0 || thrust == 0.0) && speed >= 0.0 && thrust >= 0.0);
-  if (friction_ == 0.0) return speed * s_ + thrust * q_;
+double Reach::of(double speed, double acceleration) const {
+  assert((friction_ == 0.0 || acceleration == 0.0) && speed >= 0.0 && acceleration >= 0.0);
+  if (friction_ == 0.0) return speed * s_ + acceleration * q_;
   const double rest_s =
       drag_ > 0.0 ? std::log1p(drag_ * speed / friction_) / drag_ : speed / friction_;
   if (rest_s >= time_s_) return speed * s_ - friction_ * q_;

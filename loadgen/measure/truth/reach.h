@@ -13,7 +13,7 @@ class Reach {
 
   /// The farthest distance [m] from `speed` [m/s], with at most `acceleration` [m/s^2] in any
   /// direction. A body under friction has no acceleration (asserted).
-  double of(double speed, double thrust = 0.0) const;
+  double of(double speed, double acceleration = 0.0) const;
 
  private:
   double time_s_, drag_, friction_;

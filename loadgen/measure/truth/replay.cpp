@@ -29,7 +29,7 @@ Replay::Replay(const game::Scene& scene, const game::ServerTrace& trace, const R
       encounters_(scene.world.field.length, scene.world.field.width),
       rate_hz_(trace.rate_hz) {
   for (const game::Bat& bat : scene.bodies.bats)
-    thrust_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
+    acceleration_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
   if (area.shape == RelevanceArea::Shape::filter) filter_.emplace(area, scene);
   game_.record_events(true);
   for (const game::InputEvent& event : trace.keys) {
@@ -83,8 +83,9 @@ double Replay::reach(const game::Entity& entity) const {
   const double speed =
       is_adrift ? motion.velocity.norm() * std::exp(-motion.drag.x() * (game_.now() - motion.time))
                 : game_.velocity(entity.id).norm();
-  return entity.kind == physics::BodyKind::bat ? bat_reach_.of(speed, thrust_max_[*entity.player])
-                                               : puck_reach_.of(speed);
+  return entity.kind == physics::BodyKind::bat
+             ? bat_reach_.of(speed, acceleration_max_[*entity.player])
+             : puck_reach_.of(speed);
 }
 
 double Replay::passed(std::uint32_t own, const Relevant& now) {

@@ -91,7 +91,7 @@ class Replay {
   RelevanceArea area_;
   Surroundings surroundings_;
   Reach puck_reach_, bat_reach_;
-  std::vector<double> thrust_max_;  ///< by player [m/s^2]
+  std::vector<double> acceleration_max_;  ///< by player [m/s^2]
   Encounters encounters_;
   std::optional<FilterRelevance> filter_;
   double rate_hz_;

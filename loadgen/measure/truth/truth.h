@@ -35,7 +35,7 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
                            const game::Scene& scene);
 
 /// Reads both files and fills `record.truth` and `record.tick_us`. A trace that is missing,
-/// truncated or altered leaves the figures absent, with the reason in `record.truth.trouble`; a
+/// truncated or altered leaves the figures absent, with the reason in `record.truth.error`; a
 /// replay that ends in another state makes the run invalid. The delays of discovery are written to
 /// `discovery_file` (loadgen/measure/discovery_table.h), if there is one; throws OutputError if
 /// that cannot be written, and nothing else.

@@ -115,8 +115,8 @@ std::vector<Saturation> saturate(const Experiment& experiment, const SaturationP
   return found;
 }
 
-Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options, std::ostream& out,
-                       std::vector<Saturation>& found) {
+CampaignResult run_saturation(const Campaign& campaign, const SaturateOptions& options,
+                              std::ostream& out, std::vector<Saturation>& found) {
   const Experiment& experiment = campaign.experiment;
   if (!experiment.parts.empty())
     throw ExperimentError("experiment " + experiment.name +
@@ -134,7 +134,7 @@ Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options,
     limits.most = options.allowed_clients;
     limits.first = std::min(limits.first, limits.most);
   }
-  Outcome outcome;
+  CampaignResult outcome;
   const std::filesystem::path keys = campaign.results.subdirectory("keys");
   const CellRunning run = [&](const Cell& cell) -> std::optional<RunRecord> {
     const std::filesystem::path key_log = keys / (name_of(cell) + ".keys");

@@ -67,8 +67,8 @@ struct SaturateOptions {
 /// saturation.json after each search; `found` are the results so far. The outcome holds all probes.
 /// Throws ExperimentError if the scene cannot serve the first probe, or under a virtual clock,
 /// where no tick is ever late.
-Outcome run_saturation(const Campaign& campaign, const SaturateOptions& options, std::ostream& out,
-                       std::vector<Saturation>& found);
+CampaignResult run_saturation(const Campaign& campaign, const SaturateOptions& options,
+                              std::ostream& out, std::vector<Saturation>& found);
 
 /// The result in words, e.g. "at least 400", "905", "none".
 std::string held_text(const Search& search);

@@ -114,7 +114,8 @@ TEST(CampaignInVirtualTime, SaysTheSameWhetherCellsRunBesideEachOtherOrAlone) {
   const auto write_keys = [&](const Cell& cell, const std::filesystem::path& file) {
     write_game_plan(part_of(experiment, cell.part), cell, file);
   };
-  const Outcome outcome = run_campaign({experiment, settings, results, write_keys}, progress);
+  const CampaignResult outcome =
+      run_campaign({experiment, settings, results, write_keys}, progress);
   const std::vector<Cell> cells = cells_of(experiment);
   ASSERT_EQ(outcome.runs.size(), cells.size()) << outcome.output_failure;
   settings.directory = folder.path();

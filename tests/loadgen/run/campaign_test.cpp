@@ -176,7 +176,7 @@ TEST_F(CampaignTest, AllCellsAreAppendedToTheRunsAsTheyRunAndReturnedAsTheyArePl
   std::ostringstream text;
   Progress progress(text, false, 2, 1.0);
   int games = 0;
-  const Outcome outcome = run_campaign(
+  const CampaignResult outcome = run_campaign(
       {experiment_, settings_, results, [&games](const Cell&, const auto&) { ++games; }}, progress);
   EXPECT_EQ(games, 1) << "one game, shared by both schemes";
   ASSERT_EQ(outcome.runs.size(), 2u);
@@ -206,7 +206,7 @@ TEST_F(CampaignTest, AnInterruptEndsTheCellAndKeepsWhatWasMeasured) {
   static std::atomic<bool>* interrupted_flag = &is_interrupted;
   interrupted_flag = &is_interrupted;
   signal(SIGUSR1, [](int) { interrupted_flag->store(true); });
-  const Outcome outcome =
+  const CampaignResult outcome =
       run_campaign({experiment_, settings_, results, [](const Cell&, const auto&) {}}, progress);
   signal(SIGUSR1, SIG_DFL);
   EXPECT_TRUE(outcome.was_interrupted);
@@ -220,7 +220,7 @@ TEST_F(CampaignTest, AFullDiskEndsTheCampaignAndKeepsTheRunInMemory) {
   ResultsDirectory results(folder_ / "out", false);
   std::ostringstream text;
   Progress progress(text, false, 2, 1.0);
-  const Outcome outcome =
+  const CampaignResult outcome =
       run_campaign({experiment_, settings_, results, [](const Cell&, const auto&) {}}, progress);
   EXPECT_THAT(outcome.output_failure, AllOf(HasSubstr("runs.jsonl"), HasSubstr("No space left")));
   EXPECT_EQ(outcome.runs.size(), 1u);

@@ -124,7 +124,8 @@ TEST_F(VirtualRunTest, TheSameSeedGivesTheSameBytesWhereverItRuns) {
     const auto write_keys = [this](const Cell& cell, const std::filesystem::path& file) {
       write_game_plan(experiment_, cell, file);
     };
-    const Outcome outcome = run_campaign({experiment_, settings_, results, write_keys}, progress);
+    const CampaignResult outcome =
+        run_campaign({experiment_, settings_, results, write_keys}, progress);
     results.write("summary.csv", to_csv(summarise(outcome.runs)));
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(results.path()))
