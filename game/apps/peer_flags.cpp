@@ -16,18 +16,18 @@ std::string player_names() {
 void add_evidence_options(Flags& flags, ViewingOptions& options) {
   Flag trace =
       flags.option("--evidence", options.trace,
-                   "file for what this peer sent, knew and when, and what its player saw "
+                   "file for the trace of this peer's traffic, knowledge and player "
                    "(docs/metrics.md), as JSON lines; with --pace realtime and a first peer with "
                    "--scheme --seated --unmirrored --balance 0");
   flags
       .option("--warm-up", options.warm_up_s,
-              "with --evidence: simulated seconds before anything counts")
+              "with --evidence: simulated seconds before anything is measured")
       .check(number_from(0.0, seconds_max))
       .needs(trace)
       .shows_default();
   flags
       .option("--evidence-seed", options.evidence_seed,
-              "with --evidence: of whose player it is taken and when; the same for all")
+              "with --evidence: seed of the watched players and instants; the same for all")
       .needs(trace)
       .shows_default();
 }
@@ -37,46 +37,43 @@ void add_viewing_options(Flags& flags, ViewingOptions& options, Terms& terms, co
   InterestTerms& interest = terms.interest;
   flags
       .option("--scheme", interest.scheme,
-              "peers tell each other where their players look, and what these see of others' "
-              "bodies: the filter of each sender (docs/im.md), e.g. region; without it, peers "
-              "send no updates to each other; only the first peer may give it")
+              "the filter of the updates that peers send each other about bodies in their "
+              "players' views (docs/im.md), e.g. region; without it, peers send no updates to "
+              "each other; only the first peer may give it")
       .check(objection_to)
       .excludes(join);
   flags
       .option("--policy", interest.policy,
               "with --scheme: on-event, trajectories when they change; or periodic, positions "
-              "in every window; the first peer's to say")
+              "in every window; set by the first peer")
       .check(one_of({"on-event", "periodic"}))
       .excludes(join)
       .shows_default();
   flags
       .option("--cell-size", interest.cell_size,
-              "with --scheme: side of its cells [m]; 0 lets it choose; the first peer's to say")
+              "with --scheme: side of its cells [m]; 0 lets it choose; set by the first peer")
       .check(zero_or_number_from(cell_size_min, 1e6))
       .excludes(join)
       .shows_default();
   flags
       .option("--always", options.always,
               "with --scheme: kinds of bodies that the scheme always lets through: puck, bat, "
-              "post; unless said otherwise posts, and the pucks of a match to a number of "
-              "goals; the first peer's to say")
+              "post (default: posts, and the pucks of a match to a number of goals); set by the "
+              "first peer")
       .delimiter(',')
       .check(one_of(relevant_kind_names))
       .excludes(join);
   flags
-      .flag(
-          "--seated", terms.is_seated,
-          "each peer has for its player one of the first bats, the one in its zone, and zones are "
-          "cut around these bats; their keys are those that all know; the first peer's to say")
+      .flag("--seated", terms.is_seated,
+            "give each peer the player of one of the first bats, and cut zones around these bats; "
+            "their keys are those that all know; set by the first peer")
       .excludes(join);
   flags
       .option("--view", options.view_fraction,
               "area of the own player's view as a fraction of the field's; 1 or more: everything")
       .check(number_from(1e-9, 1e6))
       .shows_default();
-  flags
-      .option("--view-area", options.view_area,
-              "area of that view [m^2] instead; 0: as --view says")
+  flags.option("--view-area", options.view_area, "area of that view [m^2] instead; 0: use --view")
       .check(number_from(0.0, view_area_max))
       .shows_default();
   add_evidence_options(flags, options);
@@ -93,10 +90,10 @@ void add_viewing_options(Flags& flags, ViewingOptions& options, Terms& terms, co
 void add_options(Flags& flags, PeerOptions& options) {
   flags.description(
       "One of the peers that share a simulation without a server: each owns and simulates the "
-      "bodies in its part of the field, and all together have, bit for bit, what\n"
-      "one engine has. The first one says how many begin and how long they play; all others join "
-      "through any that is there, before the start or while they play. In the\n"
-      "end each prints what it did and the hash of the whole, which is that of rink simulate.");
+      "bodies in its part of the field, and all together compute, bit for bit, what\n"
+      "one engine does. The first one sets how many begin and how long they play; all others join "
+      "through any running one, before the start or during the game. In the\n"
+      "end each prints its report and the hash of the whole, which is that of rink simulate.");
   flags.name("rink peer");
   flags.option("--scene", options.scene, "a scene file or the name of a preset; the same for all")
       .is_required();
@@ -105,12 +102,12 @@ void add_options(Flags& flags, PeerOptions& options) {
       "a recorded key log to play, the same for all (default: the scene's scripted keys only)");
   flags
       .option("--bots", options.bots,
-              "how many bats this peer plays, the next ones that are free; 0: it only computes")
+              "number of bats that this peer plays, the next free ones; 0: it only computes")
       .check(whole_number_from(0, bats_max))
       .shows_default();
   flags
       .option("--players", options.players,
-              "who plays them, in turn, separated by commas: random" + player_names() +
+              "kinds of their players, in turn, separated by commas: random" + player_names() +
                   "; seeded like the scene")
       .delimiter(',')
       .check([](const std::string& name) {
@@ -123,10 +120,10 @@ void add_options(Flags& flags, PeerOptions& options) {
       .check(one_of({"realtime", "free"}))
       .shows_default();
   flags.option("--record", options.record,
-               "write everybody's keys and the final hash to this key log; rink replay plays it "
-               "again, and so does rink simulate --keys");
+               "write the keys of all peers and the final hash to this key log; rink replay and "
+               "rink simulate --keys play it again");
   flags.option("--report", options.report,
-               "file for what this peer did, as JSON (default: the standard output)");
+               "file for this peer's report, as JSON (default: the standard output)");
   flags.option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")
       .check(seed_number())
       .shows_default();
@@ -137,65 +134,63 @@ void add_options(Flags& flags, PeerOptions& options) {
       .shows_default();
   flags
       .option("--bat-count", options.bat_count,
-              "so many bats on the scene's own field; 0: as it is")
+              "number of bats on the scene's own field; 0: as it is")
       .check(whole_number_from(0, bats_max))
       .shows_default();
   flags
       .option("--puck-count", options.puck_count,
-              "so many pucks on the scene's own field; 0: as it is")
+              "number of pucks on the scene's own field; 0: as it is")
       .check(whole_number_from(0, pucks_max))
       .shows_default();
   flags
       .option("--listen", options.listen,
-              "where others reach this peer; port 0 takes any free one (default of those who "
-              "join a peer of this machine: 127.0.0.1:0)")
+              "where others reach this peer; port 0 takes any free one (default if it joins a "
+              "peer of this machine: 127.0.0.1:0)")
       .value_name("ADDRESS:PORT");
-  Flag join = flags
-                  .option("--join", options.join,
-                          "any peer that is there already; without this, become the first one")
-                  .value_name("HOST:PORT");
+  Flag join =
+      flags.option("--join", options.join, "any running peer; without this, become the first one")
+          .value_name("HOST:PORT");
   flags
       .option("--peers", options.terms.peer_count,
-              "how many are waited for before the start, while more may come later; the first "
-              "peer's to say")
+              "number of peers to wait for before the start, while more may come later; set by "
+              "the first peer")
       .check(whole_number_from(1, peers_max))
       .excludes(join)
       .shows_default();
   flags
       .option("--until", options.terms.until,
-              "simulated time at which to stop [s]; the first peer's to say")
+              "simulated time at which to stop [s]; set by the first peer")
       .check(number_from(1e-6, seconds_max))
       .excludes(join)
       .shows_default();
   flags
       .option("--window", options.terms.window,
-              "simulated time from one agreement to the next [s]; the first peer's to say")
+              "simulated time from one agreement to the next [s]; set by the first peer")
       .check(number_from(1e-4, 10.0))
       .excludes(join)
       .shows_default();
   flags
       .option("--balance", options.terms.balance_windows,
-              "after so many windows zones shift toward equal numbers of events, if these are "
-              "uneven; 0: they stay; the first peer's to say")
+              "period [windows] in which zones shift toward equal numbers of events, if these "
+              "are uneven; 0: they stay; set by the first peer")
       .check(whole_number_from(0, 1'000'000u))
       .excludes(join)
       .shows_default();
   flags
       .flag("!--unmirrored", options.terms.is_replicated,
-            "no peer keeps another's part: who is lost or interrupted ends all, and nobody "
-            "joins later; the first peer's to say")
+            "keep no replicas of other peers' parts: a lost or interrupted peer ends all, and "
+            "none can join later; set by the first peer")
       .excludes(join);
   add_viewing_options(flags, options.viewing, options.terms, join);
   flags
-      .option(
-          "--transport", options.transport,
-          "what carries the bytes: tcp; shm between processes of this machine, where a port is a "
-          "name; or mpi between the ranks of an mpirun, which all are peers; the same for all")
+      .option("--transport", options.transport,
+              "transport: tcp; shm between processes of this machine, where a port is a "
+              "name; or mpi between the ranks of an mpirun, which all are peers; the same for all")
       .check(one_of({"tcp", "shm", "mpi"}))
       .shows_default();
   flags
       .option("--patience", options.patience_s,
-              "how long a peer whose word is due may be silent [s]")
+              "how long a peer whose message is due may be silent [s]")
       .check(number_from(0.1, seconds_max))
       .shows_default();
   flags.footer(
@@ -203,9 +198,10 @@ void add_options(Flags& flags, PeerOptions& options) {
       "127.0.0.1:4800\n  ./rink peer --scene arena --join 127.0.0.1:4800\n"
       "As ranks of MPI (docs/cluster.md):\n  mpirun -np 4 --oversubscribe build/bin/rink-peer "
       "--transport mpi --scene arena --until 5\n"
-      "Exit status: 0 done, 1 failed or a peer that said what cannot be, 2 bad flag or file, 10 "
-      "address in use, 11 no peer there, 12 wrong protocol version, 14 not let in,\n"
-      "16 a peer is gone, 19 this peer went on alone and the other may have done so too, 130 "
+      "Exit status: 0 done, 1 failed or a peer that sent an impossible message, 2 bad flag or "
+      "file, 10 "
+      "address in use, 11 no peer there, 12 wrong protocol version, 14 not admitted,\n"
+      "16 a peer is gone, 19 this peer continued alone and the other may have done so too, 130 "
       "interrupted.");
 }
 

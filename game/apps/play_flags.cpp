@@ -18,8 +18,8 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
   terms.interest.scheme = "none";
   const auto peer = flags
                         .option("--peer", options.peer,
-                                "be one of the peers that share a game: HOST:PORT of any that "
-                                "is there already, a rink play or a rink peer")
+                                "be one of the peers that share a game: HOST:PORT of any "
+                                "running one, a rink play or a rink peer")
                         .value_name("HOST:PORT")
                         .group(group);
   const auto listen = flags
@@ -35,29 +35,30 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
   };
   first(flags
             .option("--peers", terms.peer_count,
-                    "how many there will be, those who only compute or play bots among them; "
-                    "the first one's to say")
+                    "number of peers, with those that only compute or play bots; set by the first "
+                    "peer")
             .check(whole_number_from(2, game::peers_max)));
   first(flags
             .option("--until", terms.until,
-                    "simulated time at which to stop [s]; the first one's to say")
+                    "simulated time at which to stop [s]; set by the first peer")
             .check(game::number_from(1e-6, game::seconds_max)));
   first(flags
             .option("--window", terms.window,
-                    "simulated time from one agreement to the next [s]: a key is felt one to "
-                    "two windows later; the first one's to say")
+                    "simulated time from one agreement to the next [s]: a key takes effect one to "
+                    "two windows later; set by the first peer")
             .check(game::number_from(1e-3, 1.0)));
   first(
       flags
           .option(
               "--scheme", terms.interest.scheme,
-              "the filter by which peers tell each other what players see beyond what their peers "
-              "have (docs/im.md): none, all is told; region, grid, ...; the first one's to say")
+              "the filter of the updates that peers send each other about bodies beyond their own "
+              "parts (docs/im.md): none, which lets all through; region, grid, ...; set by the "
+              "first peer")
           .check(game::objection_to));
   flags
       .option("--view", options.sharing.view_fraction,
-              "area that is told of, around the own bat, as a fraction of the field's; 1 or "
-              "more: everything")
+              "area of the view around the own bat as a fraction of the field's; 1 or more: "
+              "everything")
       .check(game::number_from(1e-9, 1e6))
       .group(group)
       .shows_default();
@@ -76,8 +77,8 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
       .shows_default();
   flags
       .option("--record", options.sharing.record,
-              "write everybody's keys and the final hash to this key log; rink simulate --keys "
-              "plays the same game")
+              "write the keys of all peers and the final hash to this key log; rink simulate "
+              "--keys plays the same game")
       .value_name("FILE")
       .group(group);
   flags.option("--patience", options.sharing.patience_s, "how long another peer may be silent [s]")
@@ -102,7 +103,8 @@ void add_options(game::Flags& flags, PlayOptions& options) {
   const auto watch = flags
                          .option("--watch", options.watch,
                                  "watch the match or the crowd at HOST:PORT; of a crowd, I "
-                                 "shows who hears of what, Tab or a click of which body")
+                                 "shows which player receives what, Tab or a click about which "
+                                 "body")
                          .value_name("HOST:PORT");
   const auto replay = flags
                           .option("--replay", options.replay,
@@ -116,7 +118,7 @@ void add_options(game::Flags& flags, PlayOptions& options) {
   add_peer_options(flags, options, beginnings);
   flags
       .option("--key-file", options.key_file,
-              "a shared key: to host for those only who have the same file, and to join or "
+              "a shared key: to host only for players with the same file, and to join or "
               "watch such a host")
       .value_name("FILE")
       .check(existing_file());
@@ -127,9 +129,11 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .value_name("FOLDER");
   flags
       .option("--camera", options.camera,
-              "where to see it from; C changes it, V gives each of two players their own again")
+              "viewpoint; C changes it, V gives each of two players their own again")
       .check(one_of({"left", "right", "side", "above"}));
-  flags.option("--size", options.size, "of the window").value_name("WIDTHxHEIGHT").shows_default();
+  flags.option("--size", options.size, "size of the window")
+      .value_name("WIDTHxHEIGHT")
+      .shows_default();
   flags.flag("--full-screen", options.is_full_screen, "fill the screen; F11 changes it");
   flags.flag("--mute", options.is_muted, "no sound; M changes it");
   flags.flag("--figures", options.shows_figures,
@@ -138,11 +142,14 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .option("--settings", options.settings_file,
               "file of the settings (default: rink/play.toml in $XDG_CONFIG_HOME or ~/.config)")
       .value_name("FILE");
-  flags.option("--seed", options.seed, "of the bots").check(game::seed_number()).shows_default();
+  flags.option("--seed", options.seed, "seed of the bots")
+      .check(game::seed_number())
+      .shows_default();
   flags
-      .option("--script", options.script,
-              "press keys and take pictures as FILE says: lines TIME down|up|tap KEY, TIME text "
-              "WORDS, TIME picture FILE.png, TIME end")
+      .option(
+          "--script", options.script,
+          "press keys and take pictures by the script FILE: lines TIME down|up|tap KEY, TIME text "
+          "WORDS, TIME picture FILE.png, TIME end")
       .value_name("FILE");
   const auto screenshot = flags
                               .option("--screenshot", options.screenshot,

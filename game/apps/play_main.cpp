@@ -384,7 +384,7 @@ int main(int count, char** words) {
       "screen for two, + and - zoom and F follows from above, M mutes,\n"
       "F3 shows figures, F11 fills the screen.\n"
       "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "
-      "that ends wrongly is told of in the menu and on standard error.");
+      "that ends with an error is reported in the menu and on standard error.");
   return game::run_command(
       flags, count, words,
       {.run = [&] { return static_cast<int>(play(options)); }, .status_of = status_of});

@@ -41,9 +41,8 @@ int replay(const std::string& file) {
 int main(int count, char** words) {
   std::string file;
   game::speak_as("rink replay");
-  game::Flags flags(
-      "Plays a recorded game again, without a network, and compares the hash in which it ends.",
-      "rink replay");
+  game::Flags flags("Replays a recorded game, without a network, and compares the final hash.",
+                    "rink replay");
   flags.version(game::version_line("rink-replay"));
   flags
       .option("file", file,

@@ -11,51 +11,51 @@ namespace rink::game {
 
 void add_options(Flags& flags, ServeOptions& options) {
   flags.description(
-      "The server federate: simulates a scene exactly and tells each client what lies in its "
+      "The server federate: simulates a scene exactly and sends each client what lies in its "
       "interest.");
   flags.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region "
                            "--duration 30 --report server.json\n\n") +
                exit_status_help);
   flags.name("rink serve");
   flags.option("match", options.hosted,
-               "host matches of this scene, one after the other, until interrupted: on-event, 60 "
-               "ticks per second unless said otherwise (docs/play.md)");
-  flags.option("--countdown", options.countdown_s, "of hosted matches [s]")
+               "host matches of this scene, one after the other, until interrupted; by default "
+               "with policy on-event at 60 ticks per second (docs/play.md)");
+  flags.option("--countdown", options.countdown_s, "length of the countdown of hosted matches [s]")
       .check(number_from(0.0, 60.0))
       .shows_default();
   flags
       .option("--absence", options.absence_s,
-              "how long a hosted match waits for a player who has left [s]")
+              "how long a hosted match waits for a player that has left [s]")
       .check(number_from(0.0, 3600.0))
       .shows_default();
   flags.option("--scene", options.scene, "preset (match, crowd) or TOML file").shows_default();
   flags
       .option("--bats", options.bats,
-              "the same scene with so many bats, at its own density; 0: as it is")
+              "scale the scene to so many bats at its own density; 0: as it is")
       .check(number_from(0, bats_max))
       .shows_default();
   flags
       .option("--bat-count", options.bat_count,
-              "so many bats on the same field instead; 0: as it is")
+              "number of bats on the scene's own field instead; 0: as it is")
       .check(number_from(0, bats_max))
       .shows_default();
   flags
       .option("--puck-count", options.puck_count,
-              "so many pucks on the same field instead; 0: as it is")
+              "number of pucks on the scene's own field instead; 0: as it is")
       .check(number_from(0, pucks_max))
       .shows_default();
-  flags.option("--seed", options.seed, "of the scene's populations; 0: the scene's own")
+  flags.option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")
       .check(seed_number())
       .shows_default();
   const Flag file =
       flags.option("--federation", options.federation_file,
                    "TOML file with federation, fom, and either address and port or a list of "
-                   "nodes, who then are waited for and nobody else let in (docs/rti.md)");
-  flags.option("--address", options.address, "to listen on")
+                   "nodes; the server then waits for these and admits no others (docs/rti.md)");
+  flags.option("--address", options.address, "address to listen on")
       .check(not_empty())
       .excludes(file)
       .shows_default();
-  flags.option("--port", options.port, "to listen on; 0: any free one, printed")
+  flags.option("--port", options.port, "port to listen on; 0: any free one, printed")
       .excludes(file)
       .shows_default();
   flags
@@ -66,7 +66,7 @@ void add_options(Flags& flags, ServeOptions& options) {
       .shows_default();
   flags
       .option("--key-file", options.key_file,
-              "let in only clients that have the same file (docs/rti.md, Admission); none: all")
+              "admit only clients with the same file (docs/rti.md, Admission); without it: all")
       .check(existing_file());
   flags
       .option("--rate-limit", options.rate_limit_bytes_per_s,
@@ -80,8 +80,8 @@ void add_options(Flags& flags, ServeOptions& options) {
       .shows_default();
   flags
       .option("--key-limit", options.key_limit_per_s,
-              "key changes per second that a player may send; what is more is not felt, but "
-              "counted and said; 0: any")
+              "key changes per second that a player may send; others are counted and reported, "
+              "but have no effect; 0: any")
       .check(zero_or_number_from(1.0, 1e9))
       .shows_default();
   flags
@@ -99,24 +99,26 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check({[](const std::string& text) { return im::complaint_about(text, {}).value_or(""); },
               "SCHEME"})
       .shows_default();
-  flags.option("--cell-size", options.cell_size, "of schemes with cells [m]; 0: chosen")
+  flags
+      .option("--cell-size", options.cell_size,
+              "side of the cells of schemes that have some [m]; 0: chosen")
       .check(zero_or_number_from(cell_size_min, 1e6))
       .shows_default();
   flags
       .option("--always", options.always,
-              "kinds of bodies that the scheme always lets through: puck, bat, post; unless "
-              "said otherwise posts, and the pucks of a match to a number of goals")
+              "kinds of bodies that the scheme always lets through: puck, bat, post (default: "
+              "posts, and the pucks of a match to a number of goals)")
       .check(one_of(relevant_kind_names))
       .delimiter(',');
   flags.flag("--second-core", options.has_second_core,
-             "another thread takes half of each match of interest that is large enough to gain "
-             "by it (docs/im.md); the decisions are the same");
+             "let another thread take half of each match of interest where that is faster "
+             "(docs/im.md); the decisions are the same");
   flags
       .option("--sweep-ticks", options.sweep_ticks,
-              "ticks ahead over which an entity's update region is swept; 0: where it is now")
+              "ticks ahead over which an entity's update region is swept; 0: its present place")
       .check(number_from(0, sweep_ticks_max))
       .shows_default();
-  flags.option("--policy", options.policy, "when motion is sent")
+  flags.option("--policy", options.policy, "update policy: when and how motion is sent")
       .check(one_of(update_policy_names()))
       .shows_default();
   flags
@@ -136,12 +138,12 @@ void add_options(Flags& flags, ServeOptions& options) {
       .shows_default();
   flags
       .option("--pace", options.pace,
-              "realtime: by the clock; synchronous: a tick when every player has said Update")
+              "realtime: by the clock; synchronous: a tick when every player has sent Update")
       .check(one_of({"realtime", "synchronous"}))
       .shows_default();
   flags.flag("--time-management", options.is_time_managed,
-             "states, and in synchronous pace keys and turns, go in time-stamp order: the RTI "
-             "says when a tick may be played or heard (docs/rti.md)");
+             "send states, and in synchronous pace keys and turns, in time-stamp order: the RTI "
+             "decides when a tick may be played or delivered (docs/rti.md)");
   flags.option("--duration", options.duration_s, "simulated seconds; 0: until interrupted")
       .check(number_from(0.0, seconds_max))
       .shows_default();
@@ -151,7 +153,7 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags.option("--clients", options.clients, "players to wait for before the start")
       .check(number_from(0, bats_max))
       .shows_default();
-  flags.option("--patience", options.patience_s, "seconds to wait for them")
+  flags.option("--patience", options.patience_s, "seconds to wait for these players")
       .check(number_from(0.001, seconds_max))
       .shows_default();
   flags
@@ -160,19 +162,19 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(existing_file());
   flags
       .option("--from-state", options.from_state,
-              "saved game from which to begin, as rink compare writes it beside a key log; of "
-              "--keys those after its instant, and --duration and --warm-up count from there")
+              "saved game from which to begin, as rink compare writes it beside a key log; only "
+              "later --keys are played, and --duration and --warm-up count from its instant")
       .check(existing_file());
   flags.option(
       "--record", options.record,
       "file for the key log of this run; folder for those of hosted matches, by default matches");
-  flags.option("--evidence", options.trace,
-               "file for what a re-simulation of this run needs (docs/metrics.md), as JSON lines");
+  flags.option(
+      "--evidence", options.trace,
+      "file for the trace of this run, for its re-simulation (docs/metrics.md), as JSON lines");
   flags
-      .option(
-          "--status", options.status,
-          "ADDRESS:PORT of a running server: print what it says of its federations and federates, "
-          "and end; nothing is served. --transport and --key-file as the server's")
+      .option("--status", options.status,
+              "ADDRESS:PORT of a running server: print the report of its federations and federates "
+              "and end, without serving. --transport and --key-file as the server's")
       .check(not_empty());
   flags
       .option("--every", options.every_s,

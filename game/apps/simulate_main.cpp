@@ -186,7 +186,7 @@ int main(int count, char** words) {
   Options options;
   game::speak_as("rink simulate");
   game::Flags flags(
-      "Advances a scene without a network, exactly or in frames, and writes what became of it.",
+      "Advances a scene without a network, exactly or in frames, and writes the results.",
       "rink simulate");
   flags.version(game::version_line("rink-simulate"));
   flags
@@ -199,12 +199,14 @@ int main(int count, char** words) {
         const std::optional<double> until = game::number_in(text);
         if (!until || !std::isfinite(*until) || *until < 0.0)
           return text +
-                 ": expected a finite time of 0 s or more, for time neither runs backwards nor for "
+                 ": expected a finite time of 0 s or more, since time runs neither backwards nor "
+                 "for "
                  "ever";
         if (*until > until_max)
           return text +
-                 ": expected at most 1e9 s, for beyond that a clock in doubles no longer tells an "
-                 "impact from the next";
+                 ": expected at most 1e9 s, since beyond that a clock in doubles no longer "
+                 "separates "
+                 "impacts";
         return {};
       });
   const game::Flag keys =
@@ -212,8 +214,8 @@ int main(int count, char** words) {
                    "a recorded key log to play (default: the scene's scripted keys only)");
   flags
       .option("--players", options.players,
-              "who plays the bats, in turn, separated by commas: " + allowed_players() +
-                  "; seeded like the scene (default: nobody)")
+              "kinds of the bats' players, in turn, separated by commas: " + allowed_players() +
+                  "; seeded like the scene (default: none)")
       .delimiter(',')
       .excludes(keys)
       .check([](const std::string& name) {
@@ -221,8 +223,8 @@ int main(int count, char** words) {
                                           : name + ": expected one of " + allowed_players();
       });
   flags.option("--record", options.record,
-               "write the game to this key log: scene, keys and final hash; rink replay plays it "
-               "again, and so do --keys and rink serve --keys");
+               "write the game to this key log: scene, keys and final hash; rink replay, --keys "
+               "and rink serve --keys play it again");
   flags.option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)")
       .check(game::seed_number());
   flags
@@ -232,12 +234,13 @@ int main(int count, char** words) {
       .check(game::whole_number_from(0, 100'000));
   flags
       .option("--engine", options.engine.engine,
-              "what moves the bodies: " + game::listed(physics::engine_names()) +
+              "engine that moves the bodies: " + game::listed(physics::engine_names()) +
                   " (docs/physics.md, docs/paper-engine.md)")
       .shows_default();
   flags
-      .option("--integrator", options.engine.integrator,
-              "of the engines paper and naive: " + game::listed(physics::integrator_names()))
+      .option(
+          "--integrator", options.engine.integrator,
+          "integrator of the engines paper and naive: " + game::listed(physics::integrator_names()))
       .shows_default();
   flags.option("--dt", options.engine.dt, "length of a frame of the engines paper and naive [s]")
       .shows_default();

@@ -260,13 +260,14 @@ KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
   if (head.size() < sizeof numbers) throw SceneError(name + ": is cut off after its first line");
   std::memcpy(numbers.data(), head.data(), sizeof numbers);
   if (numbers[1] > packed_size_max)
-    throw SceneError(name + ": was altered: it says that it is " + std::to_string(numbers[1]) +
+    throw SceneError(name + ": was altered: its stated length is " + std::to_string(numbers[1]) +
                      " bytes long, allowed are " + std::to_string(packed_size_max));
   const std::string bytes = read_up_to(stream, numbers[1] + 1);
   if (bytes.size() < numbers[1])
     throw SceneError(name + ": is cut off: " + std::to_string(bytes.size()) + " of " +
                      std::to_string(numbers[1]) + " bytes are there");
-  if (bytes.size() > numbers[1]) throw SceneError(name + ": was altered: it goes on after its end");
+  if (bytes.size() > numbers[1])
+    throw SceneError(name + ": was altered: it continues after its end");
   if (hash_of(bytes) != numbers[0])
     throw SceneError(name + ": was altered: its checksum is another");
   return PackedReader(bytes, name).read();

@@ -23,7 +23,7 @@ std::optional<std::string> match_objection(const Scene& scene) {
     return "it has populations, but a match has only bodies that are placed one by one";
   if (bats.size() != 2 || bats[0].team != Team::left || bats[1].team != Team::right)
     return "a match has two bats, first that of the team left, then that of the team right";
-  if (!scene.rules.goals_to_win) return "[match] goals_to_win is missing, so nobody could win";
+  if (!scene.rules.goals_to_win) return "[match] goals_to_win is missing, so no player could win";
   if (scene.world.field.goal_width == 0.0 || scene.bodies.pucks.empty())
     return "a match needs goals and a puck";
   return std::nullopt;

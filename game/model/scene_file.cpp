@@ -91,7 +91,7 @@ class SceneReader {
     if (has_friction) surfaces.coefficient.set(a, b, number);
     if (!has_restitution && !has_tangential && !has_friction)
       pair.refuse_all(
-          "says nothing of the pair: expected restitution, friction or tangential_restitution");
+          "has no value for the pair: expected restitution, friction or tangential_restitution");
     pair.finish();
     return has_friction && number > 0.0;
   }

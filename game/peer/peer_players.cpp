@@ -64,7 +64,7 @@ void Peer::handle_observations(PeerNumber from) {
       return seat.bat == observation.bat && seat.peer == number_;
     };
     if (observation.owner >= claims_.size() || std::none_of(seats_.begin(), seats_.end(), is_it))
-      report(from, "shows bat " + std::to_string(observation.bat) + ", which nobody plays here");
+      report(from, "shows bat " + std::to_string(observation.bat) + ", which has no player here");
     else observations_.push_back(std::move(observation));
   }
 }

@@ -145,7 +145,7 @@ std::string Validator::fault_of(const Key& key) const {
       std::isfinite(key.time))
     return {};
   return named("hands over a key of bat", key.bat,
-               "which is none, or whose time or thrust is no number or too large");
+               "which is none, or whose time or acceleration is no number or too large");
 }
 
 std::string Validator::fault_of(const Observation& observation) const {
@@ -188,14 +188,14 @@ std::string Validator::fault_of(const Claims& message, double end) const {
     if (!is_of_kind(press.bat, physics::BodyKind::bat) ||
         !is_within(press.thrust, acceleration_max))
       return named("presses a key of bat", press.bat,
-                   "which is none, or with a thrust that no bat has");
+                   "which is none, or with an acceleration that no bat has");
   return {};
 }
 
 std::string Validator::fault_of(const Verdict& message) const {
   for (const Goal& goal : message.goals)
     if (!is_of_kind(goal.puck, physics::BodyKind::puck))
-      return named("tells of a goal of puck", goal.puck, "which is none");
+      return named("claims a goal of puck", goal.puck, "which is none");
   return {};
 }
 
@@ -208,14 +208,14 @@ std::string Validator::fault_of(const PartChange& message, double now) const {
     if (!is_body(body)) return named("gives away body", body, "which does not exist");
   for (const Handover::Body& body : message.bodies)
     if (!has_its_holds(body, message.rest_contacts))
-      return named("tells of body", body.number, "in a rest contact of which it does not tell");
-  return message.time == now ? std::string() : "tells of its part at another time";
+      return named("sends body", body.number, "in a rest contact that it does not send");
+  return message.time == now ? std::string() : "sends its part at another time";
 }
 
 std::string Validator::fault_of(const FaceOffWord& message, double now) const {
   if (!is_of_kind(message.puck, physics::BodyKind::puck))
-    return named("tells of puck", message.puck, "which is none");
-  return message.body.size() > 1 ? named("tells of puck", message.puck, "more than once")
+    return named("sends puck", message.puck, "which is none");
+  return message.body.size() > 1 ? named("sends puck", message.puck, "more than once")
                                  : first_fault(message.body, now);
 }
 
@@ -226,7 +226,7 @@ std::string Validator::fault_of(const Loss& message) const {
     const bool is_list =
         std::adjacent_find(peers->begin(), peers->end(), std::greater_equal<>()) == peers->end();
     if (!is_list || (!peers->empty() && peers->back() >= numbers_max))
-      return "tells of the loss of peers who never were";
+      return "sends the loss of peers that never were";
   }
   return {};
 }

@@ -50,7 +50,8 @@ void read_step(std::istringstream& line, const std::string& where, std::vector<S
       steps.push_back(
           {.time = step.time + tap_s, .events = {key_event(*code, false)}, .picture = {}});
   } else {
-    throw ScriptError(where + "'" + what + "' is none of: down, up, tap, text, picture, end");
+    throw ScriptError(where + "'" + what +
+                      "' is unknown: expected down, up, tap, text, picture or end");
   }
   steps.push_back(step);
 }

@@ -118,7 +118,7 @@ TEST(PackedKeyLog, ThatIsAlteredAnywhereIsRefused) {
   EXPECT_THAT(packed_refusal(altered),
               HasSubstr("match.keys: was altered: its checksum is another"));
   EXPECT_THAT(packed_refusal(bytes + '\n'),
-              HasSubstr("match.keys: was altered: it goes on after its end"));
+              HasSubstr("match.keys: was altered: it continues after its end"));
 }
 
 TEST(PackedKeyLog, OfAnotherVersionIsRefusedByItsFirstLine) {

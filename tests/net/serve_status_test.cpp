@@ -36,7 +36,7 @@ TEST(ServeCommand, StatusTellsOfTheFederationsAndFederatesOfARunningServer) {
   const Ended nobody = run("rink-serve", {"--status", *place});
   EXPECT_EQ(nobody.status, 11);
   EXPECT_THAT(nobody.words,
-              testing::AllOf(HasSubstr("--status: " + *place + ": nobody listens there"),
+              testing::AllOf(HasSubstr("--status: " + *place + ": no server listens there"),
                              HasSubstr("refused")));
 }
 

@@ -252,8 +252,7 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   part.time = now;
   EXPECT_EQ(validator.fault_of(part, now), "");
   lie.state.flight.vx = 0.0, lie.state.flags = 8, part.bodies = {lie}, part.rest_contacts.clear();
-  EXPECT_THAT(validator.fault_of(part, now),
-              HasSubstr("in a rest contact of which it does not tell"));
+  EXPECT_THAT(validator.fault_of(part, now), HasSubstr("in a rest contact that it does not send"));
   EXPECT_NE(validator.fault_of(std::vector<Key>{{.time = nan, .bat = honest.bat}}), "");
 }
 

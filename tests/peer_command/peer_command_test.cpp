@@ -108,7 +108,7 @@ TEST_F(PeerCommand, RefusesOtherScenesAndWhoComesTooLateByNameAndGoesOn) {
   EXPECT_EQ(third.ending()->exit_status, static_cast<int>(ExitStatus::not_admitted));
   EXPECT_THAT(
       third.stderr_tail(),
-      HasSubstr("they play already, and without mirrors (--unmirrored) nobody can join them"));
+      HasSubstr("they play already, and without replicas (--unmirrored) none can join them"));
   EXPECT_FALSE(crowded.ending());
 }
 

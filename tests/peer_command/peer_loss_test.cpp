@@ -39,7 +39,7 @@ TEST_F(PeerLoss, OfOneOfTwoLeavesTheOtherAlone) {
   ASSERT_TRUE(are_playing({&first, &second}));
   until([] { return false; }, 1s);
   ASSERT_EQ(kill(first.id(), SIGKILL), 0);
-  EXPECT_TRUE(says(second, "this peer goes on alone", 1s)) << second.stderr_tail();
+  EXPECT_TRUE(says(second, "this peer continues alone", 1s)) << second.stderr_tail();
   ASSERT_TRUE(ends(second));
   EXPECT_EQ(hash_of(second), truth(2.0));
   EXPECT_EQ(second.ending()->exit_status, static_cast<int>(ExitStatus::may_have_split))
@@ -55,7 +55,7 @@ TEST_F(PeerLoss, OfOneThatFallsSilentBeforeAllAreThereKeepsNobodyWaiting) {
   ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
   ASSERT_TRUE(ends(first, 5s));
   EXPECT_EQ(first.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(first.stderr_tail(), HasSubstr("peer 1 (" + place_of(second) + ") has said nothing"));
+  EXPECT_THAT(first.stderr_tail(), HasSubstr("peer 1 (" + place_of(second) + ") was silent"));
   ASSERT_EQ(kill(second.id(), SIGCONT), 0);
   ASSERT_TRUE(ends(second, 5s));
   EXPECT_NE(second.ending()->exit_status, 0);
@@ -99,7 +99,7 @@ TEST_F(PeerLoss, OfEachOtherLetsAtMostOneOfTwoEndWithStatusZero) {
   Process& second = join(first, {"--patience", "0.5"});
   ASSERT_TRUE(are_playing({&first, &second}));
   ASSERT_EQ(kill(second.id(), SIGSTOP), 0);
-  EXPECT_TRUE(says(first, "this peer goes on alone", 3s)) << first.stderr_tail();
+  EXPECT_TRUE(says(first, "this peer continues alone", 3s)) << first.stderr_tail();
   ASSERT_EQ(kill(second.id(), SIGCONT), 0);
   for (const Process* peer : {&first, &second}) ASSERT_TRUE(ends(*peer));
   EXPECT_EQ(first.ending()->exit_status, 0) << first.stderr_tail();

@@ -254,7 +254,7 @@ TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
       {"--join nowhere", "'nowhere' is not ADDRESS:PORT"},
       {"--peer 127.0.0.1:1", "no peer answers at 127.0.0.1:1: refused"},
       {"--peer 10.1.2.3:4800", "--peer-listen ADDRESS:0 is missing: with peers on other machines"},
-      {"--peer-listen 0.0.0.0:0", "nobody can connect to 0.0.0.0"},
+      {"--peer-listen 0.0.0.0:0", "none can connect to 0.0.0.0"},
       {"--peer-listen 127.0.0.1:0 --window 0.5", "expected shorter ones"},
       {"--peer-listen 127.0.0.1:0 --record no/folder", "--record: cannot write 'no/folder'"},
       {"--replay altered.keys", "altered.keys"},

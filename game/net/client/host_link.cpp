@@ -50,7 +50,7 @@ void HostLink::look_for_errors(double now_s) {
     lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
   else if (is_player_ && joined_s_ && now_s > *joined_s_ + match_patience_s &&
            !client_.replicas().has_match())
-    lose("no match is hosted there; what goes on can be watched");
+    lose("no match is hosted there; the game can be watched");
 }
 
 }  // namespace rink::game

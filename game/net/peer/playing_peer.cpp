@@ -41,8 +41,7 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
   if (game_.bat_count() == 0)
     throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
   if (game_.has_keys())
-    throw SceneError("scene '" + settings.scene +
-                     "' has keys already, and nobody can play beside them");
+    throw SceneError("scene '" + settings.scene + "' has keys already, so no player can be live");
   if (settings.join.empty()) game_.require_window(settings.terms.window);
   Place place = listening_place(settings.listen, settings.join, true,
                                 {.listen = "--peer-listen", .join = "--peer"});
@@ -144,7 +143,7 @@ void PlayingPeer::share() {
   player.viewer = viewing.viewer.get();
   if (player.viewer == nullptr)
     input_.notice(
-        "The first peer names no --scheme: what lies beyond the halo is not told, and not seen");
+        "The first peer has no --scheme: bodies beyond the halo are not sent, and not shown");
   player.bytes_sent = [this] { return network_->bytes_sent(); };
   PartOptions part_options;
   std::optional<double> start_s;  // of the simulated time
@@ -167,7 +166,7 @@ void PlayingPeer::share() {
 void PlayingPeer::end(const PlayedPart& part) {
   if (part.has_left)
     return input_.set_stage(PeerStage::Step::over, part.was_last
-                                                       ? "nobody was left to go on"
+                                                       ? "no peer was left to continue"
                                                        : "all that this peer had is with others");
   char words[160];
   std::snprintf(words, sizeof words, "The game is over at %g s: hash %s, %zu keys", part.time,

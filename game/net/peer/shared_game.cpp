@@ -55,7 +55,7 @@ class Membership {
         options_.notify("peer " + std::to_string(peer) + " joins at " +
                         std::to_string(session_.peer().now()) + " s");
     members_ = session_.members();
-    const std::string who = members_.size() == 1 ? "this peer goes on alone"
+    const std::string who = members_.size() == 1 ? "this peer continues alone"
                                                  : std::to_string(members_.size()) + " peers go on";
     if (std::exchange(lost_, session_.lost().size()) != session_.lost().size())
       options_.notify(session_.last_loss() + ": " + who + " from " +
@@ -236,7 +236,7 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Handover> lo
     for (const peer::Key& key : log.keys) {
       if (!start_.is_there({key.bat}) || !start_.entity({key.bat}).player || key.input == 0)
         throw peer::ProtocolError("a log has keys of body " + std::to_string(key.bat) +
-                                  ", which nobody plays");
+                                  ", which has no player");
       keys.push_back(event_of(key.input, key.time, *start_.entity({key.bat}).player));
     }
   return merged(keys_, keys);

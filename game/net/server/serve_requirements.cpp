@@ -74,7 +74,7 @@ rti::FederationFile follow_federation_file(ServeOptions& options) {
   if (count > 0 && options.clients > 0 && options.clients != count)
     throw std::runtime_error("--clients: " + std::to_string(options.clients) + " players, but '" +
                              options.federation_file + "' lists " + std::to_string(count) +
-                             ", who are waited for");
+                             ", for which the server waits");
   if (count > 0) options.clients = count;
   return file;
 }
@@ -106,7 +106,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   require_beginning(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error(
-        "--spread staggers what goes by streams in real time: --pace synchronous and --transport "
+        "--spread staggers writes to streams in real time: --pace synchronous and --transport "
         "udp can't be given with it");
   if (!options.trace.empty() && options.duration_s == 0.0)
     throw std::runtime_error(

@@ -92,7 +92,7 @@ StatusAnswer ask_status(const StatusQuestion& question, const std::function<doub
   }
   if (asker.reports) return {std::move(asker.reports), ""};
   if (link.is_finished() && link.close_reason() == rti::CloseReason::refused)
-    return {{}, "nobody listens there: " + asker.loss};
+    return {{}, "no server listens there: " + asker.loss};
   const std::string other = "what listens there does not speak version " +
                             std::to_string(rti::protocol_version) +
                             " of the protocol, or asks for a key";

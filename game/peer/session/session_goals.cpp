@@ -24,8 +24,7 @@ void Session::count_goals(State& next) const {
           whole_.has_puck(goal.puck) && goal.time >= now_.time - 1e-9 &&
           goal.time <= next.time + 1e-9 && std::none_of(goals.begin(), goals.end(), is_of_it) &&
           std::none_of(now_.scoring.face_offs.begin(), now_.scoring.face_offs.end(), is_of_it);
-      if (!can_be)
-        give_up(peer, "peer " + std::to_string(peer) + " tells of a goal that cannot be");
+      if (!can_be) give_up(peer, "peer " + std::to_string(peer) + " sent a goal that cannot be");
       goals.push_back(goal);
     }
   }
@@ -77,14 +76,14 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
     const auto word_received = checked<FaceOffWord>(from, peer_->now());
     if (word_received.puck != word.puck ||
         (!word_received.body.empty() && word_received.body.front().number != word.puck))
-      give_up(from, "peer " + std::to_string(from) + " tells of puck " +
+      give_up(from, "peer " + std::to_string(from) + " sends puck " +
                         std::to_string(word_received.puck) + " where puck " +
                         std::to_string(word.puck) + " is due");
     taken |= word_received.taken;
     if (word.body.empty()) word.body = word_received.body;
   }
   if (word.body.empty())
-    throw ProtocolError("nobody has puck " + std::to_string(word.puck) + ", which is due");
+    throw ProtocolError("no peer has puck " + std::to_string(word.puck) + ", which is due");
   return taken;
 }
 

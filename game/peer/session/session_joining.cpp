@@ -175,7 +175,7 @@ std::optional<Entry> Session::first_entry(std::vector<PeerNumber> from) {
         if (!state.is_sound_for(settings_.number) || !has_pucks || !state.has(from.front()) ||
             !is_in_time(state))
           throw ProtocolError("peer " + std::to_string(from.front()) +
-                              " tells of a beginning that cannot be");
+                              " sent an entry that cannot be");
         // Lost players are checked too: `seats_of` throws for bats that do not exist.
         for (const Player& player : state.players) settings_.seats_of(player);
         teller_ = from.front();
@@ -202,8 +202,8 @@ void Session::receive_same(const Entry& entry) try {
          bytes = mail_.receive(from)) {
       Loss loss;
       if (!read(bytes, loss))
-        throw ProtocolError("peer " + std::to_string(from) +
-                            " tells of another beginning than peer " + std::to_string(teller_));
+        throw ProtocolError("peer " + std::to_string(from) + " sent another entry than peer " +
+                            std::to_string(teller_));
       if (learns_of_loss(from, bytes)) return;
     }
   }

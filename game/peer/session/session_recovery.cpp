@@ -50,8 +50,7 @@ bool Session::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> byte
     const bool is_new = !is_gone(peer);
     is_news = is_news || is_new;
     if (is_new)
-      note_gone(peer,
-                "peer " + std::to_string(peer) + " is gone, says peer " + std::to_string(from));
+      note_gone(peer, "peer " + std::to_string(peer) + " is gone, by peer " + std::to_string(from));
     if (std::find(finished.begin(), finished.end(), peer) != finished.end())
       note_gone(peer, {}, true);
   }
@@ -94,7 +93,7 @@ void Session::agree() {
 void Session::go_back(PeerNumber as) {
   if (is_newcomer_)
     throw SentAway("peer " + std::to_string(as) +
-                   " had not heard of this one when others were lost");
+                   " did not know this one yet when others were lost");
   if (before_.step + 1 != now_.step || losses_[as]->step != before_.step)
     give_up(as, "peer " + std::to_string(as) + " is at step " + std::to_string(losses_[as]->step) +
                     ", here it is " + std::to_string(now_.step));

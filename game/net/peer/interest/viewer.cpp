@@ -23,7 +23,7 @@ std::uint32_t window_of(rti::Bytes updates) {
 Viewer::Viewer(const SharedGame& game, InterestSettings settings, SideChannel& side_channel)
     : game_(game), settings_(std::move(settings)), side_channel_(side_channel) {
   if (const auto complaint = im::complaint_about(settings_.scheme, {}))
-    throw peer::ProtocolError("the first peer names a scheme that is none: " + *complaint);
+    throw peer::ProtocolError("the first peer has a faulty scheme: " + *complaint);
   if (settings_.policy != "on-event" && settings_.policy != "periodic")
     throw peer::ProtocolError("the first peer names the policy '" + settings_.policy +
                               "': expected on-event or periodic");

@@ -35,7 +35,7 @@ inline Place listening_place(const std::string& listen, const std::string& join,
   const auto [address, port] = address_and_port(flags.listen, listen, 0);
   if (address == "0.0.0.0" || address == "::")
     throw std::invalid_argument(flags.listen +
-                                ": others are told this address, and nobody can connect to " +
+                                ": others are sent this address, and none can connect to " +
                                 address + ": expected one of this machine's own");
   return {address, port};
 }

@@ -102,7 +102,7 @@ void PeerNetwork::deliver_deferred() {
     deferred_.pop_front();
     Link* const link = link_at(from);
     if (!link || link->is_parted || receive_aside(from, bytes)) continue;
-    lose(*link, ExitStatus::failed, name_of(*link) + " said aside what no peer says");
+    lose(*link, ExitStatus::failed, name_of(*link) + " sent a side message that no peer sends");
   }
 }
 
@@ -292,7 +292,7 @@ std::vector<std::uint8_t> PeerNetwork::receive(peer::PeerNumber from) {
     if (link && link->is_done)
       throw SessionError(ExitStatus::connection_lost, name_of(*link) + " left before the end");
     const std::string silence =
-        " has said nothing for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s";
+        " was silent for " + std::to_string(static_cast<int>(settings_.patience_s)) + " s";
     if (!link && now > begin_s + settings_.patience_s)
       throw peer::PeerGone(from, false, "peer " + std::to_string(from) + silence);
     if (link && now > std::max(begin_s, link->received_s) + settings_.patience_s) {

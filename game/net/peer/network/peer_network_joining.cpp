@@ -71,7 +71,7 @@ void PeerNetwork::gather() {
       if (link.role == Role::peer && !link.is_closed &&
           now > std::max({begin_s, link.since_s, link.received_s}) + settings_.patience_s)
         throw SessionError(ExitStatus::connection_lost,
-                           name_of(link) + " has said nothing for " +
+                           name_of(link) + " was silent for " +
                                std::to_string(static_cast<int>(settings_.patience_s)) +
                                " s, before all were there");
   }

@@ -27,7 +27,7 @@ PeerNetwork::Link* PeerNetwork::link_at(peer::PeerNumber number) {
 void PeerNetwork::answer_in_play(rti::ConnectionId connection, const Hello& hello) {
   if (!terms_.is_replicated)
     return refuse(connection, RefusalKind::other,
-                  "they play already, and without mirrors (--unmirrored) nobody can join them");
+                  "they play already, and without replicas (--unmirrored) none can join them");
   const bool is_good = !hello.info.place.address.empty() && hello.info.place.port != 0 &&
                        bytes_of(hello.info.place).size() <= peer::Newcomer::place_max;
   if (!is_good)

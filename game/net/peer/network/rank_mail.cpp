@@ -33,7 +33,7 @@ std::string text_of(double until, double window) {
 }
 
 std::optional<RefusedRank> refused(const std::optional<RankWords>& theirs, const RankWords& ours) {
-  if (!theirs) return RefusedRank{.reason = "what it says is nothing that a rank of Rink says"};
+  if (!theirs) return RefusedRank{.reason = "its data are none of a rank of Rink"};
   if (!theirs->is_of_this_version())
     return RefusedRank{.kind = RefusalKind::wrong_version,
                        .reason = other_version(theirs->version)};
@@ -102,7 +102,7 @@ std::span<const std::uint8_t> RankMail::gather(std::span<const std::uint8_t> own
   ++collectives_;
   ranks_.begin_gathering(own);
   std::optional<std::span<const std::uint8_t>> all;
-  await("some rank has not said its part of an agreement of all",
+  await("some rank has not sent its part of a collective",
         [&] { return (all = ranks_.gathered()).has_value(); });
   return *all;
 }
@@ -114,7 +114,7 @@ void RankMail::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) {
 
 std::vector<std::uint8_t> RankMail::receive(peer::PeerNumber from) {
   std::optional<std::vector<std::uint8_t>> bytes;
-  await("rank " + std::to_string(from) + " has said nothing",
+  await("rank " + std::to_string(from) + " was silent",
         [&] { return (bytes = ranks_.receive(from)).has_value(); });
   return std::move(*bytes);
 }
