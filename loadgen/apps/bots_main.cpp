@@ -197,15 +197,15 @@ std::string why_invalid(const Options& options, const loadgen::BotCrowd& crowd) 
   return "";
 }
 
-game::ExitStatus status(const loadgen::BotCrowd& crowd) {
+game::ExitStatus status(const loadgen::BotCrowd& crowd, double patience_s) {
   if (game::is_interrupted) return game::ExitStatus::interrupted;
-  if (!crowd.has_started() || crowd.bots().lost_count() > 0) {
-    game::complain(
-        crowd.bots().lost_count(), " of ", crowd.bots().size(), " bots were lost: ",
-        crowd.bots().first_error().empty() ? "the game did not start" : crowd.bots().first_error());
-    return crowd.bots().first_status();
-  }
-  return game::ExitStatus::ok;
+  const auto& bots = crowd.bots();
+  if (bots.lost_count() > 0)
+    game::complain(bots.lost_count(), " of ", bots.size(), " bots were lost: ", bots.first_error());
+  else if (!crowd.has_started())
+    game::complain("the game did not start within --patience, ", patience_s, " s");
+  else return game::ExitStatus::ok;
+  return bots.first_status();
 }
 
 /// The federation to join and its address, by the flags or the file.
@@ -268,7 +268,7 @@ game::ExitStatus play(const Options& options) {
   Json written = loadgen::bots_report(crowd, why_invalid(options, crowd));
   written[game::report::cpu_share.key] = load.share() ? Json(*load.share()) : Json(nullptr);
   written[game::report::histogram_ns_per_record.key] = histogram_ns;
-  const game::ExitStatus result = status(crowd);
+  const game::ExitStatus result = status(crowd, options.patience_s);
   crowd.resign();
   if (const auto trace = crowd.trace()) loadgen::write_trace(options.trace, *trace);
   if (!options.report.empty()) {

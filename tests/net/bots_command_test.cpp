@@ -29,6 +29,16 @@ TEST(BotsCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
   }
 }
 
+/// The port is taken, and nobody there answers.
+TEST(BotsCommand, BotsWhoseGameDoesNotStartSayHowLongTheyWaited) {
+  rti::TcpTransport silent;
+  const std::uint16_t port = silent.listen("127.0.0.1", 0);
+  const Ended bots =
+      run("rink-bots", {"--connect", "127.0.0.1:" + std::to_string(port), "--patience", "0.5"});
+  EXPECT_EQ(bots.status, 11);
+  EXPECT_THAT(bots.words, HasSubstr("the game did not start within --patience, 0.5 s"));
+}
+
 TEST(BotsCommand, BotsThatWantDatagramsOfAServerWithoutAreToldToLookAtItsTransport) {
   Process server(test::binary_folder() + "/bin/rink-serve",
                  {"--scene", "match", "--clients", "2", "--port", "0"}, {});
