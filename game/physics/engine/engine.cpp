@@ -55,8 +55,17 @@ Engine::Engine(const WorldSpec& spec)
             spec.restitution.material_count())));
 }
 
-Real Engine::reach_of(std::uint32_t body) const {
-  return bodies_[body].radius + bodies_.build(body).half_extent.maxCoeff();
+RealVector Engine::extent_of(std::uint32_t body) const {
+  return bodies_.build(body).half_extent + RealVector::Constant(bodies_[body].radius);
+}
+
+/// In a grid made anew if this one has no room for one of its size.
+void Engine::list(std::uint32_t body, const RealVector& position) {
+  const RealVector extent = extent_of(body);
+  if (places_.fits(bodies_.count(), extent.maxCoeff()))
+    return places_.insert(body, position, extent);
+  places_.fit(bodies_.count(), extent.maxCoeff());
+  rebuild_grid();
 }
 
 BodyId Engine::add(BodyState state) {
@@ -77,12 +86,7 @@ BodyId Engine::add(BodyState state) {
   enter_mouth_if_inside(body);
   places_.resize(body + 1);
   require_prediction(body);
-  if (places_.fits(body + 1, reach_of(body))) {
-    places_.insert(body, position);
-  } else {
-    places_.fit(body + 1, reach_of(body));
-    rebuild_grid();
-  }
+  list(body, position);
   return {body};
 }
 
@@ -112,16 +116,18 @@ void Engine::rebuild_from_state() {
   events_.restart(bodies_.count());
   look_ahead_.restart();
   places_.fit(bodies_.count(), 0.0);
-  for (std::uint32_t body = 0; body < bodies_.count(); ++body)
-    places_.fit(bodies_.count(), reach_of(body));
   rebuild_grid();
 }
 
 void Engine::rebuild_grid() {
-  places_.rebuild(bodies_.count());
+  SizeClasses sizes;
+  for (std::uint32_t body = 0; body < bodies_.count(); ++body)
+    if (!bodies_[body].is(Body::removed))
+      sizes.add(static_cast<double>(extent_of(body).maxCoeff()));
+  places_.rebuild(bodies_.count(), sizes);
   for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
     if (bodies_[body].is(Body::gone)) continue;
-    places_.insert(body, motion_at(bodies_, body, clock_.now).position);
+    places_.insert(body, motion_at(bodies_, body, clock_.now).position, extent_of(body));
     require_prediction(body);
   }
   is_everything_pending_ = true;
@@ -190,7 +196,7 @@ void Engine::place(std::uint32_t puck, const RealVector& position, const RealVec
   enter_mouth_if_inside(puck);
   if (spec_.surface_friction) bodies_.set_spin(puck, 0.0);
   ledger_.introduce(energy_of(bodies_, puck));
-  places_.insert(puck, position);
+  list(puck, position);
   bodies_.touch(puck);
   settle();
 }

@@ -25,11 +25,7 @@ void Engine::put(std::uint32_t body, const BodyState& state) {
   places_.remove(body);
   events_.drop(body);
   if (bodies_[body].is(Body::gone)) return;
-  if (reach_of(body) > places_.reach()) {
-    places_.fit(bodies_.count(), reach_of(body));
-    return rebuild_grid();
-  }
-  places_.insert(body, motion_at(bodies_, body, clock_.now).position);
+  list(body, motion_at(bodies_, body, clock_.now).position);
   if (!bodies_.is_fixed(body)) return require_prediction(body);
   // Posts look at nobody: those who are there must look at it.
   for (std::uint32_t other = 0; other < bodies_.count(); ++other)

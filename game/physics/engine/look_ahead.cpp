@@ -30,7 +30,8 @@ bool LookAhead::meets(std::uint32_t body) const {
 }
 
 bool LookAhead::meets_listed(std::uint32_t body) const {
-  return meets(body) && is_body(events_[body].partner) && grid_.is_listed(events_[body].partner);
+  return meets(body) && is_body(events_[body].partner) &&
+         grid_.is_in_one_cell(events_[body].partner);
 }
 
 template <class Visit>
@@ -48,13 +49,13 @@ void LookAhead::fetch() {
   candidates_.resize(grid_.collected_max());
   step(0, [&](std::uint32_t body) { fetch_body(body); });
   step(1, [&](std::uint32_t body) {
-    if (!grid_.is_listed(body)) return;  // it has left, its note has not
+    if (!grid_.is_in_one_cell(body)) return;  // it is wide, or has left, but its note has not
     if (!meets(body)) return grid_.prefetch_cells_ahead(body, events_[body].direction);
     grid_.prefetch_cells(body);
     if (is_body(events_[body].partner)) fetch_body(events_[body].partner);
   });
   step(2, [&](std::uint32_t body) {
-    if (!grid_.is_listed(body)) return;
+    if (!grid_.is_in_one_cell(body)) return;
     fetch_collected(meets(body) ? grid_.collect(body, candidates_.data())
                                 : grid_.collect_ahead_of_move(body, events_[body].direction,
                                                               candidates_.data()));

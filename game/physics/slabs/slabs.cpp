@@ -91,7 +91,9 @@ bool Slabs::may_divide() const {
   return parts_.bodies.count() >= plan_.bodies_min && parts_.observers.before == nullptr &&
          parts_.observers.journal == nullptr && spec.queue != QueuePolicy::heap &&
          counts_touching() && spec.puck_drag == 0.0 && spec.puck_friction == 0.0 &&
-         !spec.surface_friction && !spec.accounts_energy && !spec.allow_overlap;
+         !spec.surface_friction && !spec.accounts_energy && !spec.allow_overlap &&
+         !parts_.places.grid().wide().has(
+             [&](std::uint32_t body) { return !parts_.bodies.is_fixed(body); });
 }
 
 void Slabs::begin_window(Real end) {

@@ -106,7 +106,9 @@ Tile::Encounter Tile::encounter_of(std::uint32_t body, Real time) const {
   if (encounter.crosses) {
     encounter.to = beyond(encounter.from, slot.direction);
   } else if (is_body(slot.partner)) {
-    encounter.to = places_.grid().place_meanwhile(slot.partner);
+    // A post may be wider than a cell; it has no courses.
+    const Place to = places_.grid().place_meanwhile(slot.partner);
+    if (to.column < places_.grid().columns()) encounter.to = to;
   }
   return encounter;
 }
@@ -278,7 +280,7 @@ void Tile::mark_cell(const Place& place, Real time) {
 
 bool Tile::mark(std::uint32_t body, Partner partner, Real time) {
   const Place from = places_.grid().place(body),
-              to = is_body(partner) && places_.grid().is_listed(partner)
+              to = is_body(partner) && places_.grid().is_in_one_cell(partner)
                        ? places_.grid().place(partner)
                        : from;
   const bool is_late_now = is_late(from, time) || is_late(to, time);
