@@ -65,14 +65,14 @@ class CellGrid {
   }
   /// Different threads may move different bodies as long as none is in a cell, or comes to one,
   /// that another reads or writes.
-  void move(std::uint32_t body, Direction direction) {
+  [[gnu::always_inline]] void move(std::uint32_t body, Direction direction) {
     assert(is_listed(body));
     if (has_wide_ && is_wide(body)) return move_wide(body, direction);
-    const std::size_t from = cell_of(body);
-    cells_.remove(from, body);
-    cells_.add(cells_.neighbour(from, direction), body);
-    set_place(body, places_[body].towards(direction));
-    assert(is_in_one_cell(body) && places_[body].row < rows_);
+    const Place from = places_[body], to = from.towards(direction);
+    assert(to.column < columns_ && to.row < rows_);
+    cells_.remove(cells_.at(from.column, from.row), body);
+    cells_.add(cells_.at(to.column, to.row), body);
+    set_place(body, to);
   }
 
   /// Whether a move() of a small body would leave all cells where they are in memory.

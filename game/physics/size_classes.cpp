@@ -3,6 +3,7 @@
 #include "game/physics/size_classes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -17,8 +18,8 @@ constexpr std::uint32_t smalls_per_wide = 4;
 
 void SizeClasses::add(double reach) {
   assert(reach >= 0.0);
-  constexpr int exponent_min = -40;
-  const int exponent = reach > 0.0 ? std::ilogb(reach) : exponent_min;
+  constexpr int exponent_min = 1023 - 40;  // as it stands in a double: of 1e-12 m
+  const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(reach) >> 52);
   Class& its = classes_[static_cast<std::size_t>(
       std::clamp(exponent - exponent_min, 0, static_cast<int>(class_count) - 1))];
   its.reach = std::max(its.reach, reach);

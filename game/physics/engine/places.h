@@ -66,7 +66,9 @@ class Places {
                              .half_height = static_cast<double>(extent.y())});
   }
   void remove(std::uint32_t body) { grid_.remove(body); }
-  void move(std::uint32_t body, CellGrid::Direction direction) { grid_.move(body, direction); }
+  [[gnu::always_inline]] void move(std::uint32_t body, CellGrid::Direction direction) {
+    grid_.move(body, direction);
+  }
 
  private:
   Field field_;

@@ -53,8 +53,13 @@ std::uint32_t Prediction::begin(std::uint32_t body) {
   slot.impact_time = infinity;
   slot.partner = partner::none;
   slot.is_tied = false;
-  predict_field(body);
-  if ((bodies_[body].flags & Body::curved) != 0) predict_curved_crossing(body);
+  const Body& b = bodies_[body];
+  if (!b.is(Body::curved | Body::held) && b.mouth == Body::no_mouth && !bodies_.is_slowed()) {
+    predict_flight(body);  // as predict_field() would, which takes 20 instructions to find out
+  } else {
+    predict_field(body);
+    if (b.is(Body::curved)) predict_curved_crossing(body);
+  }
   --counters_.predictions;  // of the body with itself
   return grid_.collect(body, room_for_candidates());
 }
