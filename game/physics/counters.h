@@ -68,7 +68,8 @@ struct Counters {
   double hop_energy = 0.0;  ///< kinetic energy that hops added to what thrust gave [J]
   std::uint64_t crossings = 0;     ///< bookkeeping: a body changed its grid cell
   std::uint64_t stale_events = 0;  ///< bookkeeping: an event whose partner had changed course
-  std::uint64_t predictions = 0;   ///< pairs of bodies looked at
+  std::uint64_t predictions = 0;   ///< pairs of bodies looked at; not those on curves whose boxes
+                                   ///< say that they are too far
   std::uint64_t evaluations = 0;   ///< positions evaluated: bodies brought up to the instant of an
                                    ///< event of theirs. What is asked from outside is not counted
   std::uint64_t bodies_touched = 0;  ///< last-event states rewritten
