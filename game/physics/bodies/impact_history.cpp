@@ -18,8 +18,8 @@ constexpr std::uint32_t impacts_max = 24;      // of impacts at any speed, where
 constexpr std::uint32_t repeats_max = 100;
 /// Impacts within roundings of the clock: more than an elastic series takes, masses 1e12 apart.
 constexpr std::uint32_t jammed_min = 10'000;
-constexpr std::uint32_t rests_max = 8;      // at one instant
-constexpr std::uint32_t restless_min = 16;  // impacts within contact_time
+constexpr std::uint32_t rests_max = 8;     // at one instant
+constexpr std::uint32_t restless_min = 8;  // impacts within contact_time: glides would end at once
 
 }  // namespace
 
