@@ -13,6 +13,7 @@
 #include "rti/federate_ambassador.h"
 #include "rti/hla_error.h"
 #include "rti/types.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

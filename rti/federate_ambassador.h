@@ -11,6 +11,7 @@
 #include "rti/management/federation_report.h"
 #include "rti/membership.h"
 #include "rti/types.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

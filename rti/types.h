@@ -10,7 +10,6 @@
 #include "im/region.h"
 #include "rti/handle_set.h"
 #include "rti/handles.h"
-#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

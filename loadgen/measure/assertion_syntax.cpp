@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <string_view>
 
 #include "loadgen/experiment/experiment.h"

@@ -8,6 +8,7 @@
 
 #include "game/control/key_log_file.h"
 #include "loadgen/measure/results.h"
+#include "rti/transport/modelled/link_stream.h"
 
 namespace rink::loadgen {
 

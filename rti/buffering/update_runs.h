@@ -8,6 +8,7 @@
 
 #include "rti/objects/bitmap.h"
 #include "rti/objects/object_table.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

@@ -10,6 +10,7 @@
 
 #include "rti/callbacks/callback_arguments.h"
 #include "rti/federate_ambassador.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

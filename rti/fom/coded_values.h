@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rti/fom/fom.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

@@ -14,6 +14,7 @@
 #include "rti/fom/fom_module.h"
 #include "rti/fom/fom_switches.h"
 #include "rti/types.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

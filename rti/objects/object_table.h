@@ -8,6 +8,7 @@
 
 #include "rti/federate_ambassador.h"
 #include "rti/fom/fom.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

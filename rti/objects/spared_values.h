@@ -8,6 +8,7 @@
 
 #include "rti/fom/fom.h"
 #include "rti/objects/object_map.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

@@ -9,6 +9,7 @@
 
 #include "rti/fom/fom.h"
 #include "rti/objects/object_table.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::rti {
 

@@ -7,6 +7,7 @@
 #include "game/match/interest_seen.h"
 #include "game/replication/object_model.h"
 #include "rti/ambassador.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::game {
 

@@ -2,13 +2,14 @@
 // each link and direction, and when links are cut.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "rti/transport/modelled/line_identity.h"
 #include "rti/transport/modelled/packet_loss.h"
-#include "rti/transport/modelled/virtual_network.h"
 
 namespace rink::rti {
 

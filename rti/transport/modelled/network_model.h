@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "rti/transport/modelled/link_stream.h"
+#include "rti/transport/modelled/loss_chain.h"
 #include "rti/transport/modelled/network_conditions.h"
 #include "rti/transport/modelled/virtual_network.h"
 

@@ -1,10 +1,6 @@
 // Which packets a link loses: each for itself, or in bursts.
 #pragma once
 
-#include <cassert>
-
-#include "rti/transport/modelled/link_stream.h"
-
 namespace rink::rti {
 
 /// A chain of two states, one step before each packet, and a probability of losing the packet in
@@ -32,28 +28,6 @@ struct PacketLoss {
   /// Mean number of packets lost in a row: P(lost) / P(lost, and the one after it not).
   double burst() const;
   friend bool operator==(const PacketLoss&, const PacketLoss&) = default;
-};
-
-/// The chain of one direction of one link. It starts in a state drawn from the long run, so that no
-/// warm-up is needed.
-class LossChain {
- public:
-  LossChain() = default;
-  LossChain(const PacketLoss& loss, std::uint64_t key)
-      : stream_(key), is_bad_(stream_.coin(loss.bad_fraction())) {
-    assert(loss.is_possible());
-  }
-  /// Whether the next packet is lost. Draws two numbers, so that chains of one key and different
-  /// probabilities stay in step.
-  bool loses_next(const PacketLoss& loss) {
-    const bool changes = stream_.coin(is_bad_ ? loss.to_good : loss.to_bad);
-    is_bad_ ^= changes;
-    return stream_.coin(is_bad_ ? loss.loss_bad : loss.loss_good);
-  }
-
- private:
-  LinkStream stream_;
-  bool is_bad_ = false;
 };
 
 }  // namespace rink::rti

@@ -8,26 +8,17 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "rti/transport/modelled/delayed_acknowledgements.h"
+#include "rti/transport/modelled/line_identity.h"
 #include "rti/transport/report_queue.h"
 #include "rti/transport/transport.h"
 
 namespace rink::rti {
 
-enum class LinkDirection : std::uint8_t { to_listener, from_listener };
-
-/// Identifies a line independently of other connections: the `link`-th to connect to `listener`,
-/// from 0, and the direction.
-struct LineIdentity {
-  std::string_view listener;
-  std::uint32_t link = 0;
-  LinkDirection direction = LinkDirection::to_listener;
-};
-
-/// The fate of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up then.
+/// What becomes of a write on a reliable line: it arrives at `instant_ns`, or its sender gives up
+/// then.
 struct Delivery {
   std::int64_t instant_ns = 0;
   bool is_given_up = false;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "rti/transport/modelled/link_stream.h"
 #include "tests/rti/transport/instants.h"
 
 namespace rink::rti {

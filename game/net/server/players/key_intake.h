@@ -11,6 +11,7 @@
 #include "game/model/key.h"
 #include "rti/admission/token_bucket.h"
 #include "rti/types.h"
+#include "rti/wire/bytes.h"
 
 namespace rink::game {
 
