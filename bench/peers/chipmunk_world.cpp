@@ -74,7 +74,7 @@ class ChipmunkWorld final : public PeerWorld {
                                             : cpCircleShapeNew(body, outline.radius, cpvzero),
               static_cast<cpCollisionType>(outline.kind));
     if (outline.kind != BodyKind::bat) return;
-    cpBodySetUserData(body, &driven_.emplace_back(this, index));
+    cpBodySetUserData(body, &driven_.emplace_back(Driven{this, index}));
     cpBodySetVelocityUpdateFunc(body, drive);
   }
 

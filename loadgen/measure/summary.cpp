@@ -175,7 +175,8 @@ std::vector<SummaryRow> empty_rows(std::span<const RunRecord> runs) {
   std::vector<SummaryRow> rows;
   for (const RunRecord& run : runs) {
     const Cell cell = without_seed(run.cell);
-    if (std::find(rows.begin(), rows.end(), cell) == rows.end()) rows.emplace_back(cell);
+    if (std::find(rows.begin(), rows.end(), cell) == rows.end())
+      static_cast<Cell&>(rows.emplace_back()) = cell;
   }
   std::vector<std::string> modes;  // of parts
   for (const SummaryRow& row : rows) modes.push_back(row.part + row.mode);

@@ -74,7 +74,7 @@ TEST(Priority, FillsWithTheMostUrgentAndPutsOffAllOthers) {
       for (std::size_t i = 0; i < list->size() && room > 0; ++i, --room)
         expected.push_back((*list)[i]);
     for (const PriorityOrder::Item& item :
-         order.fill(0, 25 * item_bytes, [](const auto&) { return item_bytes; }))
+         order.fill(0, 25 * item_bytes, [=](const auto&) { return item_bytes; }))
       filled.push_back(item.entity);
     for (const PriorityOrder::Item& item : order.put_off()) put_off.push_back(item.entity);
     ASSERT_EQ(filled, expected) << "match " << match;

@@ -81,9 +81,9 @@ void expect_same(const TimeSpan& span, const Gap& gap, long double from, std::ui
     return;
   }
   ASSERT_LE(span.enters, span.leaves) << "seed " << seed;
+  const bool is_short = std::abs(leaves - enters) < 1e-3L;
   const auto agree = [&](double found, long double truth) {
-    const double tolerance =
-        1e-11 + 1e-9 * static_cast<double>(std::abs(leaves - enters) < 1e-3L ? 1e3L : 0.0L);
+    const double tolerance = 1e-11 + 1e-9 * (is_short ? 1e3 : 0.0);
     const bool goes_on = truth >= until;
     EXPECT_NEAR(goes_on ? std::min(found, static_cast<double>(until)) : found,
                 static_cast<double>(truth), tolerance)

@@ -46,9 +46,10 @@ std::size_t recount(LockstepRink& rink, const Meaning& meaning) {
   const Game& game = rink.server().game();
   std::size_t in_scope = 0;
   for (const auto& [federate, view] : views) {
-    const auto own = std::ranges::find_if(game.entities(), [&](const Entity& each) {
-      return rink.server().bat_of(federate) == rink.server().publisher().object(each.id);
-    });
+    const auto own =
+        std::ranges::find_if(game.entities(), [&, federate = federate](const Entity& each) {
+          return rink.server().bat_of(federate) == rink.server().publisher().object(each.id);
+        });
     if (own == game.entities().end()) continue;
     for (const Entity& each : game.entities()) {
       const bool is_heard =
