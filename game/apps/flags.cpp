@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <concepts>
 #include <cstdio>
+#include <limits>
 
 namespace rink::game {
 
@@ -49,14 +51,14 @@ Check whole_number_from(std::uint64_t low, std::uint64_t high) {
 }
 
 /// CLI11 itself takes -1 for 2^64 - 1.
-Check seed_number() {
-  return {[](const std::string& text) -> std::string {
+Check whole_number_up_to(std::uint64_t most) {
+  return {[most](const std::string& text) -> std::string {
             std::uint64_t value = 0;
             const auto [end, error] =
                 std::from_chars(text.data(), text.data() + text.size(), value);
-            return error == std::errc() && end == text.data() + text.size()
+            return error == std::errc() && end == text.data() + text.size() && value <= most
                        ? ""
-                       : text + " is not a whole number from 0 to 18446744073709551615";
+                       : text + " is not a whole number from 0 to " + std::to_string(most);
           },
           ""};
 }
@@ -91,9 +93,23 @@ void Flags::description(const std::string& text) { app_->description(text); }
 void Flags::footer(const std::string& text) { app_->footer(text); }
 void Flags::version(const std::string& line) { app_->set_version_flag("--version", line); }
 
+template <class Value>
+void Flags::check_type(const Flag& flag) {
+  if constexpr (std::same_as<Value, double>)
+    of_types_.emplace_back(flag, Check([](const std::string& text) {
+                             return number_in(text) ? "" : text + " is not a number";
+                           }));
+  else if constexpr (std::unsigned_integral<Value>)
+    of_types_.emplace_back(flag, whole_number_up_to(std::numeric_limits<Value>::max()));
+  else if constexpr (requires(Value value) { value.value(); })
+    check_type<typename Value::value_type>(flag);
+}
+
 template <FlagValue Value>
 Flag Flags::option(const std::string& flag, Value& value, const std::string& meaning) {
-  return Flag(app_->add_option(flag, value, meaning));
+  const Flag made(app_->add_option(flag, value, meaning));
+  check_type<Value>(made);
+  return made;
 }
 template Flag Flags::option(const std::string&, std::string&, const std::string&);
 template Flag Flags::option(const std::string&, std::vector<std::string>&, const std::string&);
@@ -123,6 +139,8 @@ Flag Flags::flag(const std::string& flag, bool& value, const std::string& meanin
 Flag Flags::find(const std::string& flag) const { return Flag(app_->get_option(flag)); }
 
 std::optional<int> Flags::parse(int count, const char* const* words, int bad_flags) {
+  for (auto& [flag, check] : of_types_) flag.check(check);
+  of_types_.clear();
   try {
     app_->parse(count, words);
     return std::nullopt;

@@ -50,8 +50,8 @@ Check number_from(double low, double high);
 Check zero_or_number_from(double low, double high);
 /// A whole number from `low` to `high`.
 Check whole_number_from(std::uint64_t low, std::uint64_t high);
-/// A whole number below 2^64.
-Check seed_number();
+/// A whole number from 0 to `most`.
+Check whole_number_up_to(std::uint64_t most);
 Check not_empty();
 Check one_of(const std::vector<std::string>& names);
 Check existing_file();
@@ -128,7 +128,12 @@ class Flags {
   bool is_given(const std::string& flag) const;
 
  private:
+  /// Of what a value of that type takes: asked after all other checks, since these say more.
+  template <class Value>
+  void check_type(const Flag& flag);
+
   std::unique_ptr<CLI::App> app_;
+  std::vector<std::pair<Flag, Check>> of_types_;
 };
 
 }  // namespace rink::game

@@ -125,7 +125,6 @@ void add_options(Flags& flags, PeerOptions& options) {
   flags.option("--report", options.report,
                "file for this peer's report, as JSON (default: the standard output)");
   flags.option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")
-      .check(seed_number())
       .shows_default();
   flags
       .option("--bats", options.bats,

@@ -142,9 +142,7 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .option("--settings", options.settings_file,
               "file of the settings (default: rink/play.toml in $XDG_CONFIG_HOME or ~/.config)")
       .value_name("FILE");
-  flags.option("--seed", options.seed, "seed of the bots")
-      .check(game::seed_number())
-      .shows_default();
+  flags.option("--seed", options.seed, "seed of the bots").shows_default();
   flags
       .option(
           "--script", options.script,

@@ -45,7 +45,6 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(number_from(0, pucks_max))
       .shows_default();
   flags.option("--seed", options.seed, "seed of the scene's populations; 0: the scene's own")
-      .check(seed_number())
       .shows_default();
   const Flag file =
       flags.option("--federation", options.federation_file,

@@ -225,8 +225,8 @@ int main(int count, char** words) {
   flags.option("--record", options.record,
                "write the game to this key log: scene, keys and final hash; rink replay, --keys "
                "and rink serve --keys play it again");
-  flags.option("--seed", options.seed, "seed of the scene's populations (default: the scene's own)")
-      .check(game::seed_number());
+  flags.option("--seed", options.seed,
+               "seed of the scene's populations (default: the scene's own)");
   flags
       .option(
           "--bats", options.bats,

@@ -124,7 +124,6 @@ void add_options(game::Flags& flags, Options& options) {
   flags
       .option("--seed", options.seed,
               "seed of the plan, of players, and of the choice of watched bots")
-      .check(game::seed_number())
       .shows_default();
   flags
       .option("--view", options.view_fraction,

@@ -136,9 +136,7 @@ int main(int count, char** words) {
   flags.option("--frame-rate", options.frame_hz, "frames per second of each client")
       .check(game::number_from(10.0, 1000.0))
       .shows_default();
-  flags.option("--seed", options.seed, "seed of their decisions")
-      .check(game::seed_number())
-      .shows_default();
+  flags.option("--seed", options.seed, "seed of their decisions").shows_default();
   flags.footer(std::string("Example: rink serve match & rink duel --matches 2\n\n") +
                game::exit_status_help);
   return game::run_command(

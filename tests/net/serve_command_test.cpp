@@ -46,6 +46,17 @@ TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
   }
 }
 
+TEST(ServeCommand, WholeNumbersThatAreNoneOrTooLargeForTheirTypeAreNamedWithWhatIsAllowed) {
+  for (const auto& [flag, most] :
+       {std::pair("--port", "65535"), std::pair("--seed", "18446744073709551615")})
+    for (const char* value : {"99999999999999999999", "-1", "1.5", "x", ""}) {
+      const Ended ended = run("rink-serve", {"--scene", "match", flag, value});
+      EXPECT_EQ(ended.status, 2) << flag << ' ' << value;
+      EXPECT_THAT(ended.words, HasSubstr(flag + std::string(": ") + value +
+                                         " is not a whole number from 0 to " + most));
+    }
+}
+
 TEST(ServeCommand, CellsTooSmallToCountAreRefused) {
   for (const char* value : {"1e-308", "0.0009"}) {
     const Ended ended = serve({"--scene", "match", "--cell-size", value});
