@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 enum ExitStatus { success = 0, bad_usage = 2, output_failed = 5, interrupted = 130 };
 
 constexpr const char* footer = R"(
-Scenes of the diagram: pairs, gas, dense, drag, bats, pressed. Scenes of --stability: fast, dense, collapse, post, wedge, corner, mass-ratio,
+Scenes of the diagram: pairs, gas, dense, packed, fast, drag, bats, pressed. Scenes of --stability: fast, dense, collapse, post, wedge, corner, mass-ratio,
 cradle, overlap, crowd. The folder then holds report.html (reads offline), points.csv or stability.csv with all that was measured, and plots/ with the
 data of each plot. Method, error measure and the settings of the other libraries: docs/accuracy.md.
 
@@ -153,7 +153,7 @@ void measure_stability(const Options& options, Findings& findings) {
 rink::loadgen::Provenance provenance_with_peers(const std::vector<std::string>& command_line) {
   rink::loadgen::Provenance provenance =
       rink::loadgen::provenance_of(command_line, rink::loadgen::wake_up_lateness());
-  for (const char* peer : {"chipmunk", "box2d"})
+  for (const char* peer : {"chipmunk", "box2d", "box2d3"})
     provenance.facts.emplace_back(peer, rink::peers::version_of(peer));
   return provenance;
 }

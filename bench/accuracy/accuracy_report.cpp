@@ -24,6 +24,7 @@ std::size_t place_of(const std::vector<std::string>& names, const std::string& n
 }
 
 loadgen::Style style_of(const Contender& contender) {
+  if (contender.engine == "box2d3") return {5, 0, 1};
   if (contender.engine.starts_with("box2d"))
     return contender.engine == "box2d" ? loadgen::Style{4, 0, 4} : loadgen::Style{4, 1, 5};
   if (contender.engine == "chipmunk") return {3, 0, 3};
@@ -150,9 +151,11 @@ SectionContent content_of(const std::vector<Ordeal>& ordeals) {
 
 constexpr const char* definitions =
     "<p class=\"faint\">Position error: distance of a moving body from its true place at the end; "
-    "90th percentile by nearest rank, and the largest. Run time: real time of advancing to the end "
-    "and "
-    "reading every place once, the median of repeats in a process of their own; making the bodies "
+    "90th percentile by nearest rank, and the largest. Run time: processor time of advancing to "
+    "the "
+    "end and reading every place once, the median of repeats in a process of their own; runs in "
+    "which real time differs by more than 10 % are refused, since somebody else had the core; "
+    "making the bodies "
     "is not counted, finding the first events is. A stepping engine's error at equal run time, and "
     "its run time at equal "
     "error, are read off straight lines between its points on logarithmic axes. The cost of an "

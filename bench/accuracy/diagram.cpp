@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 
 #include "bench/accuracy/guarded.h"
+#include "bench/accuracy/run_time.h"
 
 namespace rink::accuracy {
 namespace {
@@ -16,19 +16,20 @@ constexpr int halvings_max = 20;
 struct Timed {
   std::unique_ptr<physics::Simulator> world;
   std::vector<Vector2> places;
-  double start_energy = 0.0, run_s = 0.0;
+  double start_energy = 0.0;
+  RunTime time{};
 };
 
 Timed run(const Trial& trial, const Contender& contender, double dt) {
   Timed timed{make_world(trial, contender, dt), {}};
   timed.places.reserve(trial.body_count());
   timed.start_energy = timed.world->kinetic_energy();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Play play(trial, *timed.world);
   play.advance(trial.horizon);
   for (std::size_t i = trial.first_mover(); i < trial.body_count(); ++i)
     timed.places.push_back(timed.world->position({static_cast<std::uint32_t>(i)}));
-  timed.run_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  timed.time = watch.passed();
   assert(timed.world->body_count() == trial.body_count());
   return timed;
 }
@@ -39,20 +40,24 @@ Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places
               const Contender& contender, double dt, const Effort& effort) {
   assert(dt > 0.0 && effort.repeats > 0 && effort.run_max_s > 0.0);
   assert(true_places.size() == trial.trial.body_count() - trial.trial.first_mover());
+  Point point{.dt = contender.is_stepped() ? dt : 0.0};
   std::vector<double> times;
   Timed last;
-  do {
+  int wanted = effort.repeats;
+  while (point.repeats < wanted && point.refused < refused_max) {
     last = run(trial.trial, contender, dt);
-    times.push_back(last.run_s);
-  } while (static_cast<int>(times.size()) <
-           (last.run_s > effort.run_max_s / 5.0 ? (effort.repeats + 1) / 2 : effort.repeats));
+    if (last.time.processor_s > effort.run_max_s / 5.0) wanted = (effort.repeats + 1) / 2;
+    if (!last.time.counts()) {
+      ++point.refused;
+      continue;
+    }
+    times.push_back(last.time.processor_s);
+    ++point.repeats;
+  }
   std::ranges::sort(times);
-  assert(times.front() >= 0.0);  // of a steady clock
-  Point point{.dt = contender.is_stepped() ? dt : 0.0,
-              .run_s = times[times.size() / 2],
-              .fastest_s = times.front(),
-              .slowest_s = times.back(),
-              .repeats = static_cast<int>(times.size())};
+  if (!times.empty())
+    point.run_s = times[times.size() / 2], point.fastest_s = times.front(),
+    point.slowest_s = times.back();
   point.error = position_error(last.places, true_places);
   point.energy_error =
       last.start_energy > 0.0 ? last.world->kinetic_energy() / last.start_energy - 1.0 : 0.0;
@@ -73,6 +78,10 @@ Series measure_series(const DiagramTrial& trial, const std::vector<Vector2>& tru
     const auto point = outcome.output ? from_bytes<Point>(*outcome.output) : std::nullopt;
     if (!point) {
       series.why_not_finer = outcome.why_not;
+      return series;
+    }
+    if (point->repeats == 0) {
+      series.why_not_finer = "refused: processor and real time differ by more than 10 %";
       return series;
     }
     series.points.push_back(*point);

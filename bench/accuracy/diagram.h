@@ -19,8 +19,9 @@ namespace rink::accuracy {
 struct Point {
   double dt = 0.0;  ///< s; 0 for an engine without steps
   double run_s = 0.0, fastest_s = 0.0,
-         slowest_s = 0.0;  ///< median, least and most of `repeats` real times
-  int repeats = 0;
+         slowest_s = 0.0;  ///< median, least and most of `repeats` processor times
+  int repeats = 0;         ///< 0: no run counted
+  int refused = 0;         ///< runs that did not count (RunTime::counts())
   PositionError error{};
   double energy_error =
       0.0;  ///< relative change of the kinetic energy; meaningful for a conservative trial
@@ -48,7 +49,11 @@ struct Effort {
   double limit_s = 20.0;    ///< for all repeats of a point; what takes longer did not survive
 };
 
-/// Runs `contender` at `dt` once per repeat in this process.
+/// So many runs are refused before a point is given up.
+inline constexpr int refused_max = 20;
+
+/// Runs `contender` at `dt` once per repeat in this process, and again for each that does not
+/// count.
 Point measure(const DiagramTrial& trial, const std::vector<Vector2>& true_places,
               const Contender& contender, double dt, const Effort& effort);
 

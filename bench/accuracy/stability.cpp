@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 
 #include "bench/accuracy/guarded.h"
+#include "bench/accuracy/run_time.h"
 #include "bench/peers/overlap.h"
 
 namespace rink::accuracy {
@@ -88,9 +88,9 @@ Wear endure(const Trial& trial, const Contender& contender, double dt) {
   const int frames = static_cast<int>(std::lround(trial.horizon / frame));
   assert(std::abs(at_frame(frames) - trial.horizon) < 1e-9);  // horizons lie on whole frames
   for (int k = 1; k <= frames; ++k) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     play.advance(at_frame(k));
-    wear.run_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    wear.run_s += watch.passed().processor_s;
     std::vector<Vector2> places = places_of(*world);
     wear.is_finite = wear.is_finite && are_finite(places);
     wear.overlap =

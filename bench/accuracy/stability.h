@@ -20,7 +20,7 @@ struct Wear {
   double energy_error = 0.0;   ///< largest gain over what thrust put in, in a conservative trial
                                ///< also loss, relative to all energy that there was or was put in
   double events_per_s = 0.0;   ///< physical events (a peer: new contacts) per simulated second
-  double run_s = 0.0;          ///< real time per simulated second [s]
+  double run_s = 0.0;          ///< processor time per simulated second [s]
 
   bool has_survived() const { return is_finite && escapes == 0; }
 };

@@ -71,15 +71,17 @@ std::string line_of(const Panel& panel, const Series& series) {
 }  // namespace
 
 const char* const panel_legend =
-    "run: real time of the simulated time, median; p90, max: distance of the moving bodies from "
+    "run: processor time of the simulated time, median, refused where real time differs by more "
+    "than "
+    "10 %; p90, max: distance of the moving bodies from "
     "their true places; finest: the shortest step within the time for a run;\n"
     "order: of convergence; times: run time over the exact engine's; >: no step got there; <: the "
     "longest step is better already\n";
 const char* const ordeal_legend =
     "overlap: the deepest seen at any sixtieth of a second; energy: largest error (gain, without "
     "drag and loss also loss) relative to all energy there was or was put in;\n"
-    "events: physical events, for others than exact new contacts, per simulated second; run: real "
-    "time per simulated second\n";
+    "events: physical events, for others than exact new contacts, per simulated second; run: "
+    "processor time per simulated second\n";
 
 std::string metres(double value) {
   return !std::isfinite(value) ? "-" : value == 0.0 ? "0" : formatted("%.1e", value);
@@ -110,6 +112,7 @@ std::string text_of(const Panel& panel) {
   text += formatted("%-20s %9s %9s %10s %9s %9s %9s %6s %9s %9s\n", "engine", "run, ms", "p90, m",
                     "step, us", "run, ms", "p90, m", "max, m", "order", "run, ms", "times");
   for (const Series& series : panel.series) text += line_of(panel, series);
+  if (const std::string best = best_stepper_of(panel); !best.empty()) text += best + "\n";
   return text;
 }
 
@@ -130,6 +133,31 @@ std::string text_of(const Ordeal& ordeal) {
   return text;
 }
 
+std::string best_stepper_of(const Panel& panel) {
+  const Series *best = nullptr, *cheapest = nullptr;
+  double least = 0.0;
+  bool has_box2d3 = false;
+  for (const Series& series : panel.series) {
+    if (!is_peer(series.contender) || series.points.empty()) continue;
+    const Standing standing = standing_of(panel, series);
+    if (!standing.least_ratio) return "";
+    if (!standing.is_bound && (best == nullptr || *standing.least_ratio < least))
+      best = &series, least = *standing.least_ratio;
+    if (cheapest == nullptr || series.points.front().run_s < cheapest->points.front().run_s)
+      cheapest = &series;
+    has_box2d3 = has_box2d3 || series.contender.engine == "box2d3";
+  }
+  if (cheapest == nullptr) return "";
+  const Point& longest = cheapest->points.front();
+  return (best == nullptr ? "no other library errs by so little"
+                          : "best of the other libraries: " + best->contender.name() + ", " +
+                                standing_of(panel, *best).ratio + " times the exact engine") +
+         "; cheapest at 1/60 s: " + cheapest->contender.name() + ", " +
+         three_digits(longest.run_s / exact_point(panel)->run_s) + " times, which errs by " +
+         metres(longest.error.p90) + " m" +
+         (has_box2d3 ? "" : "; the best stepper is missing, for box2d3 was not run");
+}
+
 std::string headline_of(const Panel& panel) {
   const Point* exact = exact_point(panel);
   std::string rivals;
@@ -142,7 +170,7 @@ std::string headline_of(const Panel& panel) {
   return panel.trial.trial.name + ": to place nine tenths of all bodies within " +
          target_text(panel.trial.target) + " after " + three_digits(panel.trial.trial.horizon) +
          " s takes, in run times of the exact engine (which errs by " + metres(exact->error.p90) +
-         " m): " + rivals;
+         " m): " + rivals + "; " + best_stepper_of(panel);
 }
 
 loadgen::PlotTable points_table(const std::string& name, std::span<const Panel> panels) {
@@ -151,7 +179,7 @@ loadgen::PlotTable points_table(const std::string& name, std::span<const Panel> 
                            "errors are distances from the true places at the horizon",
                            {"scene", "engine", "integrator", "dt_s", "horizon_s", "run_s_median",
                             "run_s_min", "run_s_max", "repeats", "error_p90_m", "error_max_m",
-                            "energy_error", "overlap_m", "escapes"}};
+                            "energy_error", "overlap_m", "escapes", "refused"}};
   for (const Panel& panel : panels)
     for (const Series& series : panel.series)
       for (const Point& point : series.points)
@@ -162,7 +190,8 @@ loadgen::PlotTable points_table(const std::string& name, std::span<const Panel> 
              exact_number(point.slowest_s), std::to_string(point.repeats),
              exact_number(point.error.p90), exact_number(point.error.max),
              panel.trial.trial.is_conservative() ? exact_number(point.energy_error) : "",
-             exact_number(point.overlap), std::to_string(point.escapes)});
+             exact_number(point.overlap), std::to_string(point.escapes),
+             std::to_string(point.refused)});
   return table;
 }
 

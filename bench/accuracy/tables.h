@@ -32,7 +32,14 @@ std::string text_of(const Ordeal& ordeal);
 extern const char* const panel_legend;
 extern const char* const ordeal_legend;
 
-/// The ratios of the peers in one sentence; empty if the panel lacks the exact engine or all peers.
+/// Which of the other libraries gets to the target with the shortest run, and which takes the
+/// shortest for steps of 1/60 s, relative to the exact engine; says so if Box2D v3 is not among
+/// them, for no claim is against the best without it. Empty if
+/// the panel lacks the exact engine or all peers.
+std::string best_stepper_of(const Panel& panel);
+
+/// The ratios of the peers in one sentence, with the best stepper; empty if the panel lacks the
+/// exact engine or all peers.
 std::string headline_of(const Panel& panel);
 
 /// A row per point, per trial and contender.

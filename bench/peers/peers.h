@@ -10,12 +10,12 @@
 
 namespace rink::peers {
 
-/// chipmunk, box2d (continuous collision off) and box2d-bullets (on: every disc and bat is a
-/// bullet), whether or not they were built in.
+/// chipmunk, box2d (2.4, continuous collision off), box2d-bullets (on: every disc and bat is a
+/// bullet) and box2d3 (v3), whether or not they were built in.
 const std::vector<std::string>& peer_names();
 
-/// The Debian package that the peer `name` comes from.
-const char* package_of(const std::string& name);
+/// What to do for the peer `name` to be built in.
+std::string way_to(const std::string& name);
 
 /// Whether the peer `name` was found when this program was built.
 bool is_built_in(const std::string& name);

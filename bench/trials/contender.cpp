@@ -60,8 +60,7 @@ std::vector<std::string> absences(const std::vector<std::string>& engines) {
   std::vector<std::string> sentences;
   for (const std::string& peer : peers::peer_names())
     if (is_wanted(engines, peer) && !peers::is_built_in(peer))
-      sentences.push_back(peer + " is absent: install " + peers::package_of(peer) +
-                          " and configure again");
+      sentences.push_back(peer + " is absent: " + peers::way_to(peer));
   return sentences;
 }
 

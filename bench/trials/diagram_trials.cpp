@@ -80,6 +80,25 @@ DiagramTrial dense_gas() {
   return {trial, 1e-3, "the exact engine in extended precision", places_in_extended_precision};
 }
 
+/// Here an event engine has most to do, and a stepping one no more than elsewhere.
+DiagramTrial packed_gas() {
+  Trial trial = gas(1000, 0.7);
+  trial.name = "packed";
+  trial.about = "1,000 elastic discs of 1 m/s at packing 0.7";
+  trial.horizon = at_frame(3);
+  return {trial, 1e-3, "the exact engine in extended precision", places_in_extended_precision};
+}
+
+/// Likewise: thirty times the events of slow discs, and no more steps.
+DiagramTrial fast_gas() {
+  Trial trial = gas(1000, 0.05);
+  trial.name = "fast";
+  trial.about = "1,000 elastic discs of 30 m/s at packing 0.05";
+  for (PuckSpec& puck : trial.pucks) puck.velocity *= 30.0;
+  trial.horizon = at_frame(1);
+  return {trial, 1e-3, "the exact engine in extended precision", places_in_extended_precision};
+}
+
 DiagramTrial drag() {
   Trial trial = gas(1000, 0.1);
   trial.name = "drag";
@@ -241,7 +260,7 @@ std::vector<Vector2> places_by_warped_time(const Trial& trial) {
 }
 
 std::vector<DiagramTrial> diagram_trials() {
-  return {pairs(), sparse_gas(), dense_gas(), drag(), bats(), pressed()};
+  return {pairs(), sparse_gas(), dense_gas(), packed_gas(), fast_gas(), drag(), bats(), pressed()};
 }
 
 }  // namespace rink::accuracy

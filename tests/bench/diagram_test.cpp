@@ -5,6 +5,7 @@
 
 #include "bench/accuracy/diagram.h"
 #include "bench/accuracy/guarded.h"
+#include "bench/accuracy/run_time.h"
 #include "bench/accuracy/stability.h"
 #include "bench/accuracy/tables.h"
 #include "bench/trials/stability_trials.h"
@@ -102,6 +103,34 @@ TEST(Diagram, StandingIsRelativeToTheExactEngineOfTheSamePanel) {
   EXPECT_EQ(standing_of(panel, panel.series[2]).ratio, "> 500");
   EXPECT_NE(headline_of(panel).find("chipmunk 200, box2d > 500"), std::string::npos)
       << headline_of(panel);
+}
+
+TEST(Diagram, NamesTheBestOfTheOtherLibrariesAndSaysIfBox2dV3IsMissing) {
+  Panel panel{{.trial = {.name = "gas"}}};
+  panel.series = {{{"exact"}, {point_at(0.0, 1e-3, 1e-15)}},
+                  {{"paper", "rk4"}, {point_at(0.1, 2e-3, 1e-9)}},
+                  {{"chipmunk"}, {point_at(0.1, 0.1, 1e-2), point_at(0.05, 0.4, 1e-4)}},
+                  {{"box2d"}, {point_at(0.1, 5e-4, 1e-1)}}};
+  EXPECT_EQ(best_stepper_of(panel),
+            "best of the other libraries: chipmunk, 200 times the exact engine; cheapest at 1/60 "
+            "s: box2d, 0.5 times, which errs by 1.0e-01 m; the best stepper is missing, for box2d3 "
+            "was not run");
+  EXPECT_NE(text_of(panel).find(best_stepper_of(panel)), std::string::npos);
+  panel.series.push_back({{"box2d3"}, {point_at(0.1, 0.02, 1e-2), point_at(0.05, 0.08, 1e-4)}});
+  EXPECT_NE(best_stepper_of(panel).find("best of the other libraries: box2d3, 40 times"),
+            std::string::npos)
+      << best_stepper_of(panel);
+  EXPECT_EQ(best_stepper_of(panel).find("missing"), std::string::npos);
+  panel.series = {panel.series[0], panel.series[3]};
+  EXPECT_NE(best_stepper_of(panel).find("no other library errs by so little"), std::string::npos);
+  panel.series.pop_back();
+  EXPECT_EQ(best_stepper_of(panel), "");
+}
+
+TEST(RunTime, CountsWhereProcessorAndRealTimeDifferByATenthAtMost) {
+  EXPECT_TRUE((RunTime{.processor_s = 0.91, .real_s = 1.0}).counts());
+  EXPECT_FALSE((RunTime{.processor_s = 0.89, .real_s = 1.0}).counts()) << "somebody had the core";
+  EXPECT_FALSE((RunTime{.processor_s = 1.2, .real_s = 1.0}).counts()) << "a second thread helped";
 }
 
 TEST(Guarded, WorkHandsBackItsBytes) {
