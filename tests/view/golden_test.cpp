@@ -14,9 +14,9 @@
 #include "game/model/scene_file.h"
 #include "game/view/application.h"
 #include "game/view/render/image_file.h"
-#include "game/view/render/offscreen.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
+#include "tests/view/offscreen_test.h"
 #include "tests/view/sights.h"
 #include "tests/view/tiles.h"
 
@@ -62,27 +62,23 @@ game::InterestSeen decided(const MatchSight& sight, std::uint32_t asked) {
   return seen;
 }
 
-/// All tests share what takes long to make: a context and compiled shaders.
-class GoldenImages : public ::testing::Test {
+/// All tests share what takes long to make, compiled shaders too.
+class GoldenImages : public OffscreenTest {
  protected:
   static void SetUpTestSuite() {
-    setenv("LP_NUM_THREADS", "1", 0);
-    try {
-      context_ = std::make_unique<OffscreenContext>();
-    } catch (const GraphicsError& error) {
-      error_ = error.what();
-      return;
-    }
+    OffscreenTest::SetUpTestSuite();
+    if (!can_draw()) return;
     interface_ = std::make_unique<Interface>();
     renderer_ = std::make_unique<Renderer>();
   }
   static void TearDownTestSuite() {
     renderer_.reset();
     interface_.reset();
-    context_.reset();
+    OffscreenTest::TearDownTestSuite();
   }
   void SetUp() override {
-    if (!context_) GTEST_SKIP() << error_;
+    OffscreenTest::SetUp();
+    if (IsSkipped()) return;
     resize(small);
     open(match_sight());
   }
@@ -156,10 +152,8 @@ class GoldenImages : public ::testing::Test {
                   << "\napart   " << folder << name << ".difference.png";
   }
 
-  static inline std::unique_ptr<OffscreenContext> context_;
   static inline std::unique_ptr<Interface> interface_;
   static inline std::unique_ptr<Renderer> renderer_;
-  static inline std::string error_;
   WindowSize size_;
   Target target_;
   std::unique_ptr<Application> application_;

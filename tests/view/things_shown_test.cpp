@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <string>
 
 #include "game/view/picture_of.h"
 #include "game/view/render/image_file.h"
-#include "game/view/render/offscreen.h"
 #include "game/view/render/renderer.h"
+#include "tests/view/offscreen_test.h"
 #include "tests/view/sights.h"
 #include "tests/view/tiles.h"
 
@@ -20,26 +19,18 @@ namespace {
 constexpr int width = 480, height = 270;
 constexpr double aspect = static_cast<double>(width) / height;
 
-class ThingsShown : public ::testing::Test {
+class ThingsShown : public OffscreenTest {
  protected:
   static void SetUpTestSuite() {
-    setenv("LP_NUM_THREADS", "1", 0);
-    try {
-      context_ = std::make_unique<OffscreenContext>();
-    } catch (const GraphicsError& error) {
-      error_ = error.what();
-      return;
-    }
+    OffscreenTest::SetUpTestSuite();
+    if (!can_draw()) return;
     renderer_ = std::make_unique<Renderer>();
     target_ = std::make_unique<Target>(width, height, 0);
   }
   static void TearDownTestSuite() {
     target_.reset();
     renderer_.reset();
-    context_.reset();
-  }
-  void SetUp() override {
-    if (!context_) GTEST_SKIP() << error_;
+    OffscreenTest::TearDownTestSuite();
   }
 
   Image drawn(const MatchSight& sight, const ViewChoice& choice) {
@@ -139,10 +130,8 @@ class ThingsShown : public ::testing::Test {
         << "beside thing " << shape.thing.id;
   }
 
-  static inline std::unique_ptr<OffscreenContext> context_;
   static inline std::unique_ptr<Renderer> renderer_;
   static inline std::unique_ptr<Target> target_;
-  static inline std::string error_;
 };
 
 TEST_F(ThingsShown, StandWhereTheyAreFromEveryViewpoint) {
