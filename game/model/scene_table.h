@@ -43,8 +43,8 @@ inline constexpr double field_max = 1e9, speed_max = 1e6, thrust_max = 1e4, rate
 inline constexpr Range field{1e-3, field_max};           ///< its sides [m]
 inline constexpr Range position{-field_max, field_max};  ///< m; a later check finds whether it lies
                                                          ///< on the field
-inline constexpr Range size{1e-5, field_max};  ///< radii and half extents [m]
-inline constexpr Range mass{1e-6, 1e14};       ///< kg
+inline constexpr Range size{1e-5, field_max};            ///< radii and half extents [m]
+inline constexpr Range mass{1e-6, 1e14};                 ///< kg
 inline constexpr Range velocity{-speed_max, speed_max}, speed{0.0, speed_max};  ///< m/s
 inline constexpr Range thrust{0.0, thrust_max};    ///< and friction with the table [m/s^2]
 inline constexpr Range drag{0.0, rate_max};        ///< 1/s

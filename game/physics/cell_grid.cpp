@@ -49,11 +49,6 @@ void CellGrid::rebuild(double length, double width, double reach, std::uint32_t 
   std::fill(places_.begin(), places_.end(), Place{});
 }
 
-/// Nobody is listed twice; cells are copied with room to spare.
-void CellGrid::require_room_for_all() {
-  cells_.require_room(static_cast<std::uint32_t>(places_.size()) + 8);
-}
-
 void CellGrid::insert(std::uint32_t body, double x, double y) {
   assert(body < places_.size() && !is_listed(body));
   places_[body] = {static_cast<std::uint16_t>(column(x)), static_cast<std::uint16_t>(row(y))};
@@ -69,7 +64,7 @@ void CellGrid::insert_wide(std::uint32_t body, const Box& box) {
   places_[body] = {static_cast<std::uint16_t>(columns_ + slot),
                    static_cast<std::uint16_t>(rows_ + slot)};
   has_wide_ = true;
-  require_room_for_all();
+  cells_.require_room(static_cast<std::uint32_t>(places_.size()) + spare_room);
   set_edges(slot);
 }
 

@@ -53,7 +53,7 @@ class CellGrid {
                double least_cell);
   void resize(std::uint32_t count) {
     places_.resize(count);
-    if (has_wide_) require_room_for_all();
+    if (has_wide_) cells_.require_room(count + spare_room);
   }
 
   void insert(std::uint32_t body, double x, double y);
@@ -162,13 +162,15 @@ class CellGrid {
   void set_place(std::uint32_t body, Place place) {
     std::atomic_ref(places_[body]).store(place, std::memory_order_relaxed);
   }
-  void require_room_for_all();
   void remove_wide(std::uint32_t body);
   void move_wide(std::uint32_t body, Direction direction);
   void set_edges(std::uint32_t slot);
   std::uint32_t collect_all_sizes(std::uint32_t body, std::uint32_t* list) const;
   std::uint32_t collect_all_sizes_ahead(std::uint32_t body, Direction direction,
                                         std::uint32_t* list) const;
+
+  /// Nobody is listed twice; cells are copied with room to spare.
+  static constexpr std::uint32_t spare_room = 8;
 
   CellLists cells_;
   LargeArray<Place> places_;

@@ -77,7 +77,7 @@ struct Terms {
   double until = 0.0, window = 0.0;   ///< s
   std::uint32_t balance_windows = 0;  ///< period [windows] in which zones shift toward equal load;
                                       ///< 0: they stay
-  bool is_replicated = true;  ///< whether each peer's part is kept by another, too
+  bool is_replicated = true;          ///< whether each peer's part is kept by another, too
   bool is_seated = false;  ///< each peer has the player in its zone, whose keys all know, and zones
                            ///< are cut around players (seated_division)
   bool starts_together = false;  ///< at an instant that the first peer sends (start_together)
