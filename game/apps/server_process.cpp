@@ -75,11 +75,13 @@ std::optional<Hosting> ServerProcess::hosting_of(const ServeOptions& options) {
                  .scene_text = scene_text(options.scene)};
 }
 
+/// Never decreases: a tick that is cut short stops it until real time has caught up.
 double ServerProcess::simulated_now() const {
-  return start_s_ == 0.0 ? begin_s_
-                         : (options_.pace == "synchronous"
-                                ? server_.game().now()
-                                : begin_s_ + std::max(0.0, now_s() - start_s_) - behind_s_);
+  const double now = start_s_ == 0.0 ? begin_s_
+                     : options_.pace == "synchronous"
+                         ? server_.game().now()
+                         : begin_s_ + std::max(0.0, now_s() - start_s_) - behind_s_;
+  return latest_s_ = std::max(latest_s_, now);
 }
 
 void ServerProcess::exchange_until(double until_s) {

@@ -77,6 +77,7 @@ class ServerProcess {
   MatchRecords records_;
   double start_s_ = 0.0;
   double behind_s_ = 0.0;  ///< simulated time that real time has lost to the physics' budget
+  mutable double latest_s_ = 0.0;  ///< that simulated_now() has returned
   bool is_flood_reported_ = false;
   Costs costs_;
 };

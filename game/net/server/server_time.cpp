@@ -43,6 +43,7 @@ double Server::follow_match(double real_s) {
     keys_.begin();
     publisher_->retire_all();
     game_ = hosted_->begin(game_);
+    budget_.begin();
   }
   if (hosted_->is_over()) finish_record();
   return hosted_->goal(real_s, game_.now());

@@ -11,7 +11,11 @@ namespace rink::game {
 
 TickBudget::TickBudget(const TickBudgetSettings& settings) : settings_(settings) {
   assert(settings.tick_s > 0.0);
-  if (settings.events_per_s > 0) events_.emplace(settings.events_per_s);
+  begin();
+}
+
+void TickBudget::begin() {
+  if (settings_.events_per_s > 0) events_.emplace(settings_.events_per_s);
 }
 
 std::uint64_t TickBudget::share() const {

@@ -33,6 +33,8 @@ class TickBudget {
  public:
   explicit TickBudget(const TickBudgetSettings& settings);
 
+  /// Another game is played from now on, which begins at any time.
+  void begin();
   /// Plays a tick up to `until` [s]; false if it was cut short.
   bool advance(Game& game, double until);
   const TickBudgetCounters& counters() const { return counters_; }

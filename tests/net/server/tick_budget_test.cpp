@@ -49,5 +49,16 @@ TEST(ATickBudget, CutsTicksShortSaysSoOnceInTenTimesAsManyAndChangesNothing) {
   EXPECT_GT(budget.counters().pace(), 0.0);
 }
 
+TEST(ATickBudget, BeginsAnewWithAnotherGame) {
+  Game first(crowd()), second(crowd()), alone(crowd());
+  TickBudget budget({.events_per_s = 40, .tick_s = 0.1});
+  for (int tick = 0; tick < 50; ++tick) budget.advance(first, 3.0);
+  ASSERT_GT(budget.counters().ticks_cut_short, 0u);
+  budget.begin();
+  while (second.now() < 3.0) budget.advance(second, 3.0);
+  alone.advance(3.0);
+  EXPECT_EQ(second.hash(), alone.hash());
+}
+
 }  // namespace
 }  // namespace rink::game
