@@ -146,8 +146,9 @@ bool has_sound_mass(const Body& b, const BodyShape& build) {
 bool is_sound(const Body& b, const BodyShape& build, const ForceLaw& law, const WorldState& state) {
   const auto is_finite = [](const RealVector& v) { return v.allFinite(); };
   return is_finite({b.x, b.y}) && is_finite({b.vx, b.vy}) && is_finite(law.acceleration) &&
-         is_finite(build.half_extent) && is_finite(build.thrust) && b.time <= state.clock.now &&
-         b.radius >= 0.0 && std::isfinite(b.radius) && has_sound_mass(b, build) &&
+         is_finite(build.half_extent) && build.half_extent.minCoeff() >= 0.0 &&
+         is_finite(build.thrust) && b.time <= state.clock.now && b.radius >= 0.0 &&
+         std::isfinite(b.radius) && has_sound_mass(b, build) &&
          b.material < state.spec.restitution.material_count() && b.mouth <= Body::right_mouth &&
          law.drag.minCoeff() >= 0.0;
 }

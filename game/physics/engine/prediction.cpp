@@ -55,7 +55,8 @@ std::uint32_t Prediction::begin(std::uint32_t body) {
   slot.partner = partner::none;
   slot.is_tied = false;
   const Body& b = bodies_[body];
-  if (!b.is(Body::curved | Body::held) && b.mouth == Body::no_mouth && !bodies_.is_slowed()) {
+  if (!b.is(Body::curved | Body::held | Body::frozen) && b.mouth == Body::no_mouth &&
+      !bodies_.is_slowed()) {
     predict_flight(body);  // as predict_field() would, which takes 20 instructions to find out
   } else {
     predict_field(body);
@@ -85,7 +86,7 @@ void Prediction::predict_field(std::uint32_t body) {
   if (b.is(Body::held))
     rests_.for_each_end(body, [&](Real time) { offer(body, time, partner::release); });
   if (b.is(Body::frozen) && !is_still(bodies_, body))
-    offer(body, history_.last_hop(body), partner::release);
+    offer(body, std::max(history_.last_hop(body), b.time), partner::release);
   if ((b.flags & Body::curved) != 0) predict_curved_walls(body);
   else predict_flight(body);
   if (b.mouth != Body::no_mouth) predict_mouth(body);

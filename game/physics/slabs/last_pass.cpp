@@ -35,8 +35,11 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   const NextEvent& slot = parts_.events[body];
   const Partner partner = slot.partner;
   const bool crosses = slot.crossing_time < slot.impact_time;
+  const bool is_stale =
+      !crosses && is_body(partner) && parts_.bodies[partner].version != slot.partner_version;
   const bool is_late = tile_.mark(body, crosses ? partner::none : partner, order.time);
-  if (!crosses && is_body(partner) && !tile_.put_back(partner, order.time)) solver_failed_ = true;
+  if (!crosses && !is_stale && is_body(partner) && !tile_.put_back(partner, order.time))
+    solver_failed_ = true;
   const Counters before = parts_.record.counters();
   changed_.clear();
   time_ = order.time;
@@ -53,7 +56,7 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   if (!is_usual || parts_.clock.solver_failed) solver_failed_ = true;
   if (crosses) tile_.mark(body, partner::none, order.time);  // the cell that it came to
   if (!is_late) return;
-  if (crosses) tile_.note_late(body, order.time);
+  if (crosses || is_stale) tile_.note_late(body, order.time);
   for (const std::uint32_t other : changed_) tile_.note_late(other, order.time);
 }
 
