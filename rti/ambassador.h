@@ -160,7 +160,7 @@ class Ambassador {
   void send_directed_interaction(InteractionClassHandle interaction_class, FederateHandle receiver,
                                  Bytes parameters, const Stamp& stamp);
 
-  /// Data distribution management (ambassador_regions.cpp); docs/rti.md, "Regions". Setting a range
+  /// Data distribution management; docs/rti.md, "Regions". Setting a range
   /// is local; a commit takes effect at the RTI's next match. The same region may serve
   /// subscriptions and updates; one that was never committed overlaps nothing. Without dimensions a
   /// region is over X and Y [m], needs no such dimensions in the model, and holds for whole
@@ -274,7 +274,7 @@ class Ambassador {
   /// Opens or closes a channel for datagrams; once one has opened, frames are numbered too, for an
   /// older datagram may come after them. `size_max` is the most bytes that a datagram may have now,
   /// 0 while there is no channel. Best-effort updates use the channel unless this federate
-  /// regulates time or leaves objects behind.
+  /// uses time management or leaves objects behind.
   void expect_datagrams(std::size_t size_max);
   /// The datagrams that must be sent to the RTI, after `outgoing` or beside it, valid until
   /// `clear_outgoing_datagrams` says that they have been sent. `clear_outgoing` leaves them alone.

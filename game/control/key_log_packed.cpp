@@ -261,7 +261,7 @@ KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
   std::memcpy(numbers.data(), head.data(), sizeof numbers);
   if (numbers[1] > packed_size_max)
     throw SceneError(name + ": was altered: its stated length is " + std::to_string(numbers[1]) +
-                     " bytes long, allowed are " + std::to_string(packed_size_max));
+                     " bytes, allowed are " + std::to_string(packed_size_max));
   const std::string bytes = read_up_to(stream, numbers[1] + 1);
   if (bytes.size() < numbers[1])
     throw SceneError(name + ": is cut off: " + std::to_string(bytes.size()) + " of " +

@@ -125,7 +125,7 @@ int main(int count, char** words) {
   flags.option("--players", options.players, "the kind of both players")
       .check(game::one_of(game::player_kinds()))
       .shows_default();
-  flags.option("--matches", options.matches, "number of matches, with a rematch after each")
+  flags.option("--matches", options.matches, "number of matches, with a rematch between")
       .check(game::number_from(1, 1000))
       .shows_default();
   flags

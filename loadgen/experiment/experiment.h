@@ -113,9 +113,8 @@ struct Experiment {
       tick_rates_hz{30.0};                                   ///< see Parameters, and parameter.h
   std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< see Parameters, and parameter.h
   std::vector<std::uint32_t> pucks{0},
-      bats{0};  ///< number on the scene's own field; 0: the scene's number
-  double view_area =
-      0.0;  ///< of a client's view [m^2], for any field; 0: view_fraction decides
+      bats{0};             ///< number on the scene's own field; 0: the scene's number
+  double view_area = 0.0;  ///< of a client's view [m^2], for any field; 0: view_fraction decides
   TransportKind transport = TransportKind::tcp;
   double delay_ms =
       10.0;  ///< one way, in virtual time; 0 to 10,000; with a network the greater of its latencies
@@ -134,8 +133,8 @@ struct Experiment {
                                            ///< `always`, kinds that are always relevant
   std::vector<std::string> always;  ///< kinds of bodies that are always relevant; none: as the
                                     ///< scene has it (game::relevant_kinds_of)
-  /// The baseline of ratios; by default the first of the file's lists, but empty beside a table of
-  /// other baseline keys that does not name them.
+  /// The baseline of ratios; if the file compares neither, the first of its lists; empty beside a
+  /// table of other baseline keys that does not name them.
   std::string baseline_scheme = "none", baseline_policy = "periodic";
   std::vector<std::pair<std::string, std::string>> baseline_others{};  ///< other keys of the
                                                                        ///< baseline

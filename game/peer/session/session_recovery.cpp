@@ -50,7 +50,8 @@ bool Session::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> byte
     const bool is_new = !is_gone(peer);
     is_news = is_news || is_new;
     if (is_new)
-      note_gone(peer, "peer " + std::to_string(peer) + " is gone, by peer " + std::to_string(from));
+      note_gone(peer, "peer " + std::to_string(peer) + " is gone, according to peer " +
+                          std::to_string(from));
     if (std::find(finished.begin(), finished.end(), peer) != finished.end())
       note_gone(peer, {}, true);
   }

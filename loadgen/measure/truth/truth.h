@@ -42,7 +42,7 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
 void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file,
                const std::string& bots_file, const std::filesystem::path& discovery_file = {});
 /// Adds figures from traces in memory, which should be `rounded` so that they equal those of files.
-/// Entries are not found.
+/// Late entries are not looked for.
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
                const BotsTrace& bots);
 }  // namespace rink::loadgen

@@ -129,7 +129,7 @@ Status TimeService::handle_retract(std::uint32_t slot, Reader& reader) {
 }
 
 /// Forgets messages that nothing needs any more. If that is not enough, the federate that holds up
-/// most of them is expelled, neither the busiest sender nor those that wait.
+/// most of them is expelled (find_culprit).
 void TimeService::make_room(std::uint32_t speaker) {
   for (std::uint32_t slot = 0; slot < federates_.size(); ++slot)
     messages_.forget_final(slot, management_->earliest(slot));

@@ -175,7 +175,7 @@ TEST(ExperimentFile, StagesSayNotWhatIsRelevantAtAnInstant) {
   EXPECT_THAT(
       complaint_about(minimal +
                       "relevance = 'filter'\nrelevant = 'team or (aura with dwell(matches=3))'"),
-      HasSubstr("at character 20: dwell goes by"));
+      HasSubstr("at character 20: dwell depends on"));
 }
 
 TEST(ExperimentFile, WhatBelongsToAnotherKindOfRelevanceIsRefused) {

@@ -136,7 +136,7 @@ TEST(AHostLink, GivesAHostThreeSecondsToSayThatItPlaysAMatch) {
   for (; !visitor.link.is_lost() && step < 1000; ++step) play(host, visitor, step, step + 1);
   EXPECT_NEAR(2 * (step - 1) * way_s - joined_s, 3.0, 1.01 * 2 * way_s);
   EXPECT_GT(2 * (step - 1) * way_s - joined_s, 3.0);
-  EXPECT_EQ(visitor.link.error(), "no match is hosted there; what goes on can be watched");
+  EXPECT_EQ(visitor.link.error(), "no match is hosted there; the game can be watched");
 }
 
 TEST(AHostLink, SaysThatNobodyListens) {
