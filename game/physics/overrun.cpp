@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -81,30 +81,31 @@ BusyBody busy_body(const World& world, std::uint32_t body, const Tally& tally,
   return busy;
 }
 
-std::string formatted(const char* format, double value) {
+std::string formatted(double value, int digits) {
   char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+  const auto written =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
+  assert(written.ec == std::errc());
+  return {text, written.ptr};
 }
 
 std::string text_of(const BusyBody& busy) {
   std::string text = "body " + std::to_string(busy.body.index) + " in " +
-                     formatted("%.3g", 100.0 * busy.share) + " % of them, ";
+                     formatted(100.0 * busy.share, 3) + " % of them, ";
   const std::string whom =
       busy.partner ? "body " + std::to_string(busy.partner->index) : "the field";
   switch (busy.reason) {
     case OverrunReason::pressed:
       return text + "pressed by thrust, mostly against " + whom;
     case OverrunReason::no_room:
-      return text + "with no room: at most " + formatted("%.2g", busy.free_path) +
+      return text + "with no room: at most " + formatted(busy.free_path, 2) +
              " m between two, mostly with " + whom;
     case OverrunReason::light:
-      return text + "being light: others are " + formatted("%.3g", busy.mass_ratio) +
-             " times as heavy";
+      return text + "being light: others are " + formatted(busy.mass_ratio, 3) + " times as heavy";
     case OverrunReason::common:
       return text + "no more than others";
     case OverrunReason::fast:
-      return text + "being fast: up to " + formatted("%.2g", busy.free_path) +
+      return text + "being fast: up to " + formatted(busy.free_path, 2) +
              " m between two, mostly with " + whom;
   }
   assert(false);
@@ -136,9 +137,9 @@ Overrun overrun_of(const World& world, const EventBudget& budget) {
 std::string text_of(const Overrun& overrun) {
   std::string text = std::to_string(overrun.events) + " events within a simulated second where " +
                      std::to_string(overrun.events_per_s) + " may be, at " +
-                     formatted("%.17g", static_cast<double>(overrun.time)) + " s; the last " +
+                     formatted(static_cast<double>(overrun.time), 17) + " s; the last " +
                      std::to_string(overrun.looked_at) + " took " +
-                     formatted("%.2g", static_cast<double>(overrun.span)) + " s";
+                     formatted(static_cast<double>(overrun.span), 2) + " s";
   for (const BusyBody& busy : overrun.busiest) text += "; " + text_of(busy);
   return text;
 }

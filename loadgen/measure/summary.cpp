@@ -179,6 +179,7 @@ std::vector<SummaryRow> empty_rows(std::span<const RunRecord> runs) {
       static_cast<Cell&>(rows.emplace_back()) = cell;
   }
   std::vector<std::string> modes;  // of parts
+  modes.reserve(rows.size());
   for (const SummaryRow& row : rows) modes.push_back(row.part + row.mode);
   const auto place = [&modes](const SummaryRow& row) {
     return std::tuple(std::find(modes.begin(), modes.end(), row.part + row.mode) - modes.begin(),

@@ -47,8 +47,9 @@ TEST(ServeCommand, NumbersThatAreNoneOrTooLargeAreNamedWithWhatIsAllowed) {
 }
 
 TEST(ServeCommand, WholeNumbersThatAreNoneOrTooLargeForTheirTypeAreNamedWithWhatIsAllowed) {
+  constexpr const char* port = "--port";
   for (const auto& [flag, most] :
-       {std::pair("--port", "65535"), std::pair("--seed", "18446744073709551615")})
+       {std::pair(port, "65535"), std::pair("--seed", "18446744073709551615")})
     for (const char* value : {"99999999999999999999", "-1", "1.5", "x", ""}) {
       const Ended ended = run("rink-serve", {"--scene", "match", flag, value});
       EXPECT_EQ(ended.status, 2) << flag << ' ' << value;

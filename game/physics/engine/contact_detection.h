@@ -9,7 +9,7 @@
 #include "game/physics/bodies/contact.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
-#include "game/physics/cell_grid.h"
+#include "game/physics/grid/cell_grid.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {

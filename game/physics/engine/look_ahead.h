@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "game/physics/bodies/bodies.h"
-#include "game/physics/cell_grid.h"
 #include "game/physics/engine/next_events.h"
+#include "game/physics/grid/cell_grid.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {

@@ -9,8 +9,8 @@
 #include "game/physics/bodies/partner.h"
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/body.h"
-#include "game/physics/cell_grid.h"
 #include "game/physics/events/event_schedule.h"
+#include "game/physics/grid/cell_grid.h"
 #include "game/physics/large_pages.h"
 #include "game/physics/real.h"
 

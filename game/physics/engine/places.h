@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "game/physics/body.h"
-#include "game/physics/cell_grid.h"
+#include "game/physics/grid/cell_grid.h"
+#include "game/physics/grid/size_classes.h"
 #include "game/physics/real.h"
-#include "game/physics/size_classes.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 

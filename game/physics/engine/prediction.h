@@ -9,11 +9,11 @@
 #include "game/physics/bodies/impact_history.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/body.h"
-#include "game/physics/cell_grid.h"
 #include "game/physics/counters.h"
 #include "game/physics/engine/next_events.h"
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/flight/exponential.h"
+#include "game/physics/grid/cell_grid.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {

@@ -13,6 +13,7 @@
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/flight/impact_time.h"
 #include "game/physics/flight/straight_flight.h"
+#include "game/physics/slabs/event_merge.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -360,23 +361,14 @@ void Slabs::add_counters() {
 /// In the order in which one loop would have written them.
 void Slabs::merge_events() {
   if (!parts_.record.is_kept()) return;
-  struct Ordered {
-    EventOrder order;
-    Event event;
-  };
-  std::vector<Ordered> merged;
+  std::vector<OrderedEvent> merged;
   const std::span<const Event> own = parts_.record.events().subspan(events_before_);
   for (std::size_t k = 0; k < own.size(); ++k)
     merged.push_back({last_pass_->orders()[events_before_ + k], own[k]});
   for (Tile* tile : all_tiles_)
     for (const Event& event : tile->record().events())
       merged.push_back({{event.time, event.body.index, event.other->index}, event});
-  std::stable_sort(merged.begin(), merged.end(),
-                   [](const Ordered& a, const Ordered& b) { return precedes(a.order, b.order); });
-  std::vector<Event> events;
-  events.reserve(merged.size());
-  for (const Ordered& ordered : merged) events.push_back(ordered.event);
-  parts_.record.replace_from(events_before_, events);
+  parts_.record.replace_from(events_before_, in_order(std::move(merged)));
 }
 
 /// Back to where the window began.

@@ -8,11 +8,11 @@
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/clock.h"
 #include "game/physics/bodies/event_record.h"
-#include "game/physics/cell_grid.h"
 #include "game/physics/engine/engine.h"
 #include "game/physics/engine/prediction.h"
 #include "game/physics/events/event_bins.h"
 #include "game/physics/events/window_queue.h"
+#include "game/physics/grid/cell_grid.h"
 #include "game/physics/real.h"
 #include "game/physics/slabs/courses.h"
 

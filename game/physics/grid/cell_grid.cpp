@@ -1,5 +1,5 @@
 // Choice of the cell size; who is in which cell, and in which cells.
-#include "game/physics/cell_grid.h"
+#include "game/physics/grid/cell_grid.h"
 
 #include <cmath>
 #include <limits>

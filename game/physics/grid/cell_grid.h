@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "game/physics/cell_lists.h"
+#include "game/physics/grid/cell_lists.h"
+#include "game/physics/grid/wide_bodies.h"
 #include "game/physics/large_pages.h"
-#include "game/physics/wide_bodies.h"
 
 namespace rink::physics {
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "game/physics/cell_grid.h"
-#include "game/physics/size_classes.h"
+#include "game/physics/grid/cell_grid.h"
+#include "game/physics/grid/size_classes.h"
 #include "tests/physics/scenes.h"
 
 namespace rink::physics::test {

@@ -1,5 +1,5 @@
 // Room for cells, and for more in each.
-#include "game/physics/cell_lists.h"
+#include "game/physics/grid/cell_lists.h"
 
 #include <utility>
 

@@ -1,13 +1,13 @@
 // An estimate of what to look at the neighbours costs, for each way to divide bodies into small and
 // wide.
-#include "game/physics/size_classes.h"
+#include "game/physics/grid/size_classes.h"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
 
-#include "game/physics/wide_bodies.h"
+#include "game/physics/grid/wide_bodies.h"
 
 namespace rink::physics {
 

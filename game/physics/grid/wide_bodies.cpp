@@ -1,5 +1,5 @@
 // Blocks of cells that bodies enter and leave.
-#include "game/physics/wide_bodies.h"
+#include "game/physics/grid/wide_bodies.h"
 
 #include <cmath>
 #include <limits>

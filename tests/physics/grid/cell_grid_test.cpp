@@ -1,6 +1,6 @@
 // The cell grid: nobody within reach is ever missed, however crowded the cells are and however
 // often bodies move.
-#include "game/physics/cell_grid.h"
+#include "game/physics/grid/cell_grid.h"
 
 #include <gtest/gtest.h>
 

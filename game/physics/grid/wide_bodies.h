@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "game/physics/cell_lists.h"
+#include "game/physics/grid/cell_lists.h"
 
 namespace rink::physics {
 
