@@ -10,8 +10,8 @@ namespace rink::accuracy {
 struct RunTime {
   double processor_s = 0.0, real_s = 0.0;
 
-  /// Both are equal but for a tenth of real time: nobody else had the core, and no second thread of
-  /// the process did part of the work.
+  /// The two times differ by at most a tenth of the real time: no other process had the core, and
+  /// no second thread of this one did part of the work.
   bool counts() const { return std::abs(processor_s - real_s) <= 0.1 * real_s; }
 };
 

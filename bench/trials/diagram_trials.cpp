@@ -89,7 +89,7 @@ DiagramTrial packed_gas() {
   return {trial, 1e-3, "the exact engine in extended precision", places_in_extended_precision};
 }
 
-/// Likewise: thirty times the events of slow discs, and no more steps.
+/// Fast discs have thirty times the events of slow ones, and a stepper takes no more steps.
 DiagramTrial fast_gas() {
   Trial trial = gas(1000, 0.05);
   trial.name = "fast";

@@ -22,8 +22,8 @@ void write_events_heading(std::ostream& stream);
 void write_events(std::ostream& stream, std::span<const physics::Event> events);
 
 /// Counts, energies, momentum, overlap, escapes, score and hash as one JSON object with its
-/// `schema`. `wall_s` is how long the run took. A `budget` says whether it was exceeded, by whom
-/// and why.
+/// `schema`. `wall_s` is how long the run took. If a `budget` is given, the object also says
+/// whether it was exceeded, by which bodies and why.
 std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s,
                        const std::optional<physics::EventBudget>& budget);
 

@@ -16,7 +16,7 @@ namespace rink::physics::inline RINK_PRECISION {
 struct ChargedEvent {
   Real time = 0.0;                  ///< s
   std::uint32_t body = 0;           ///< whose event came first
-  Partner partner = partner::none;  ///< whom or what it met
+  Partner partner = partner::none;  ///< the body or part of the field that it met
   std::uint64_t count = 1;          ///< a joint impact counts by its contacts
   bool is_hop = false;              ///< a pressed cluster was parted
 };

@@ -92,21 +92,21 @@ std::string formatted(double value, int digits) {
 std::string text_of(const BusyBody& busy) {
   std::string text = "body " + std::to_string(busy.body.index) + " in " +
                      formatted(100.0 * busy.share, 3) + " % of them, ";
-  const std::string whom =
+  const std::string partner =
       busy.partner ? "body " + std::to_string(busy.partner->index) : "the field";
   switch (busy.reason) {
     case OverrunReason::pressed:
-      return text + "pressed by thrust, mostly against " + whom;
+      return text + "pressed by thrust, mostly against " + partner;
     case OverrunReason::no_room:
       return text + "with no room: at most " + formatted(busy.free_path, 2) +
-             " m between two, mostly with " + whom;
+             " m between two, mostly with " + partner;
     case OverrunReason::light:
       return text + "being light: others are " + formatted(busy.mass_ratio, 3) + " times as heavy";
     case OverrunReason::common:
       return text + "no more than others";
     case OverrunReason::fast:
       return text + "being fast: up to " + formatted(busy.free_path, 2) +
-             " m between two, mostly with " + whom;
+             " m between two, mostly with " + partner;
   }
   assert(false);
   return text;

@@ -72,9 +72,8 @@ bool Subdomain::was_gone(std::uint32_t body) const {
 
 bool Subdomain::is_possible(const BodyState& state, std::uint32_t body_count) {
   constexpr std::uint8_t known = Body::lasting;
-  const bool is_jammed = (state.flags & Body::frozen) != 0;
   return (state.flags & ~known) == 0 && state.mouth <= Body::right_mouth &&
-         (!is_jammed || state.jam < body_count);
+         (!is_frozen(state) || state.jam < body_count);
 }
 
 double Subdomain::glide_max(const World& world) {

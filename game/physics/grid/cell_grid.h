@@ -102,7 +102,7 @@ class CellGrid {
 
   /// Room that collect() needs.
   std::uint32_t collected_max() const { return cells_.collected_max(); }
-  /// Lists everybody whom `body` sees, itself included; returns how many.
+  /// Lists all bodies that `body` sees, itself included; returns how many.
   std::uint32_t collect(std::uint32_t body, std::uint32_t* list) const {
     if (has_wide_) return collect_all_sizes(body, list);
     return cells_.collect_nine(cell_of(body), list);
@@ -137,7 +137,7 @@ class CellGrid {
     cells_.visit(range, visit);
     wide_.visit_in(range, [&](const WideBodies::Wide& wide) { visit(wide.body); });
   }
-  /// The same for all whom `body` sees, and perhaps some more.
+  /// The same for all bodies that `body` sees, and perhaps some more.
   template <class Visit>
   void around(std::uint32_t body, Visit&& visit) const {
     if (is_wide(body)) return within(wide_[slot_of(body)].block, visit);

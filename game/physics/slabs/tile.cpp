@@ -87,13 +87,6 @@ void Tile::fetch() const {
                         });
 }
 
-Tile::Place Tile::beyond(Place place, CellGrid::Direction direction) {
-  const int step = (direction & 1) != 0 ? 1 : -1;
-  std::uint16_t& index = direction <= CellGrid::right ? place.column : place.row;
-  index = static_cast<std::uint16_t>(index + step);
-  return place;
-}
-
 /// The next event of `body`.
 Tile::Encounter Tile::encounter_of(std::uint32_t body, Real time) const {
   const NextEvent& slot = events_[body];
@@ -104,7 +97,7 @@ Tile::Encounter Tile::encounter_of(std::uint32_t body, Real time) const {
                       places_.grid().place(body),
                       places_.grid().place(body)};
   if (encounter.crosses) {
-    encounter.to = beyond(encounter.from, slot.direction);
+    encounter.to = encounter.from.towards(slot.direction);
   } else if (is_body(slot.partner)) {
     // A post may be wider than a cell; it has no courses.
     const Place to = places_.grid().place_meanwhile(slot.partner);
@@ -208,7 +201,7 @@ bool Tile::put_back(std::uint32_t body, Real time) {
     return std::nullopt;
   };
   for (auto back = direction(grid.place(body)); back; back = direction(grid.place(body))) {
-    const bool is_ours = is_whole_ || blocked(beyond(grid.place(body), *back)) != Blocked::for_all;
+    const bool is_ours = is_whole_ || blocked(grid.place(body).towards(*back)) != Blocked::for_all;
     if (!is_ours || !grid.has_room_beyond(body, *back)) return false;
     places_.move(body, *back);
   }

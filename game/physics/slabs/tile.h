@@ -94,7 +94,6 @@ class Tile {
 
   void open(const CellRange& range);
   void fetch() const;
-  static Place beyond(Place place, CellGrid::Direction direction);
   Encounter encounter_of(std::uint32_t body, Real time) const;
   bool play_event(const Encounter& encounter);
   bool cross(std::uint32_t body);
