@@ -170,5 +170,30 @@ TEST(Liar, WhoseClaimsNobodyCanAgreeWithIsNamedAndTheOthersGoOn) {
       << losses[0] << losses[2];
 }
 
+/// Who believed it would keep a number that nobody has, which the next newcomer gets.
+TEST(Liar, WhoTellsTheLossOfAPeerThatNeverWasIsNamedAndTheOthersGoOn) {
+  Play play(0, 3, 30);
+  play.is_live = true;
+  play.on_the_way = [](End peer, std::vector<std::uint8_t>& bytes) {
+    Claims claims;
+    if (peer == 1 && read(bytes, claims) && claims.window >= 5)
+      bytes = written(Loss{.step = claims.window, .gone = {3}});
+  };
+  std::array<std::string, 3> losses;
+  std::array<std::vector<PeerNumber>, 3> gone;
+  play.before_window = [&](Session& session, End peer) {
+    losses[peer] = session.last_loss();
+    gone[peer] = session.lost();
+  };
+  play.run();
+  for (const End honest : {0, 2}) {
+    EXPECT_EQ(play.fates[honest], Fate::done);
+    EXPECT_EQ(gone[honest], (std::vector<PeerNumber>{1}));
+  }
+  EXPECT_NE((losses[0] + losses[2]).find("peer 1 sends the loss of peer 3, which never was"),
+            std::string::npos)
+      << losses[0] << losses[2];
+}
+
 }  // namespace
 }  // namespace rink::peer::test

@@ -41,6 +41,10 @@ bool Session::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> byte
     give_up(from, "peer " + std::to_string(from) + " sent what is no message");
   if (const std::string fault = validator_.fault_of(loss); !fault.empty())
     give_up(from, "peer " + std::to_string(from) + " " + fault);
+  // Peers are at most a step apart, and a member's number was assigned at an earlier step.
+  if (!loss.gone.empty() && loss.gone.back() >= now_.next_number)
+    give_up(from, "peer " + std::to_string(from) + " sends the loss of peer " +
+                      std::to_string(loss.gone.back()) + ", which never was");
   if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end())
     halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
   const std::vector<PeerNumber> word_received = loss.gone, finished = loss.finished;
