@@ -67,15 +67,16 @@ constexpr std::array of_figures{
     Definition{"messages_per_s", "1/s", "message rate, updates and interactions",
                "Attribute updates and interactions that the RTI delivered to all clients per "
                "measured second"},
-    Definition{"update_age_ms", "ms", "update latency",
-               "Time from the instant at which a tick was due to the first of its news being "
-               "applied to the client's mirror, one sample per client and tick that brought any"},
+    Definition{
+        "update_age_ms", "ms", "update latency",
+        "Time from the instant at which a tick was due to the first of its news being "
+        "applied to the client's replica set, one sample per client and tick that brought any"},
     Definition{
         "update_age_samples", "1", "sample size",
         "Number of samples of update_age_ms: clients times ticks, less what brought no news"},
     Definition{"key_to_effect_ms", "ms", "input latency, response time",
                "Time from the instant at which a key was due to the first state of the own bat in "
-               "the client's mirror that has felt it"},
+               "the client's replica set that has felt it"},
     Definition{"physics_us_per_tick", "us", "", "Wall time of the server's physics, mean per tick"},
     Definition{"filter_us_per_tick", "us", "matching time",
                "Wall time of the server's interest management, mean per tick"},
@@ -105,12 +106,13 @@ constexpr std::array of_figures{
     Definition{"filter_recall", "1", "filtering recall, completeness",
                "Of the pairs of player and entity that truth calls relevant, the fraction that the "
                "filter let through"},
-    Definition{"delivered_precision", "1", "",
-               "Of the pairs of player and entity that the players' mirrors held, the fraction "
-               "that truth calls relevant at the displayed instant"},
+    Definition{
+        "delivered_precision", "1", "",
+        "Of the pairs of player and entity that the players' replica sets held, the fraction "
+        "that truth calls relevant at the displayed instant"},
     Definition{"delivered_recall", "1", "",
                "Of the pairs of player and entity that truth calls relevant at the displayed "
-               "instant, the fraction that the players' mirrors held"},
+               "instant, the fraction that the players' replica sets held"},
     Definition{"interactions", "1", "events",
                "Contacts of watched players' bats with other bodies within the measured span"},
     Definition{"missed_interactions", "1", "missed events",
@@ -119,9 +121,10 @@ constexpr std::array of_figures{
     Definition{"late_entry_ms", "ms", "discovery latency",
                "Time from the instant at which an entity became relevant to a player to its first "
                "delivered state"},
-    Definition{"position_error_mm", "mm", "dead-reckoning error at the time stamp, replica error",
-               "Distance from where a mirror has an entity to where it was at the mirror's newest "
-               "time stamp"},
+    Definition{
+        "position_error_mm", "mm", "dead-reckoning error at the time stamp, replica error",
+        "Distance from where a replica set has an entity to where it was at the set's newest "
+        "time stamp"},
     Definition{
         "displayed_error_mm", "mm", "dead-reckoning error now, replica error, inconsistency",
         "Distance from where a client shows an entity at an instant to where it truly is then"},

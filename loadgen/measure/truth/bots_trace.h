@@ -31,14 +31,14 @@ struct BotsTrace {
   struct Sample {
     std::uint32_t bot = 0;  ///< index in `bots`
     double displayed_s = 0.0,
-           matched_s = 0.0;  ///< the clock's simulated instant, and the newest stamp in the mirror
+           matched_s = 0.0;  ///< the clock's simulated instant, and the newest stamp it holds
     double window_s = 0.0;
     std::size_t first = 0, last = 0;  ///< in `replicas`
   };
 
   std::uint32_t clients = 0;
   double from_s = 0.0, until_s = 0.0;  ///< the measured span of simulated time
-  bool is_complete = true;  ///< false: changes beyond the room for them are missing
+  bool is_complete = true;             ///< false: changes beyond the room for them are missing
   std::vector<Bot> bots;
   std::vector<Sample> samples;  ///< ordered by displayed_s
   std::vector<Replica> replicas;

@@ -25,11 +25,13 @@ struct Latency {
 
 constexpr Latency kinds[] = {
     {"update-age", "Update age", "Update latency (update age)",
-     "From the instant at which a tick was due to its batch being applied to the client's mirror; "
+     "From the instant at which a tick was due to its batch being applied to the client's replica "
+     "set; "
      "one sample per client and tick.",
      &CellLatencies::update_latency, nullptr},
     {"key-to-effect", "Key to effect", "Input latency (key to effect)",
-     "From the instant a key was due to the client's own bat answering in its mirror, so a server "
+     "From the instant a key was due to the client's own bat answering in its replica set, so a "
+     "server "
      "that stalls cannot hide it.",
      &CellLatencies::input_latency, nullptr},
     {"late-entry", "Late entry", "Discovery latency (late entry)",

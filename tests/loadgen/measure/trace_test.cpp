@@ -258,8 +258,8 @@ TEST_F(WatchedClient, OfWhatChangesOnlySoMuchIsKeptAndThatSomeIsMissingIsSaid) {
   }
 }
 
-/// In a hundred samples of one mirror there is room for 1,500 entities each, 60 bytes apiece: of
-/// 4,000 every third is given.
+/// In a hundred samples of one replica set there is room for 1,500 entities each, 60 bytes apiece:
+/// of 4,000 every third is given.
 TEST_F(WatchedClient, OfALargeMirrorEveryNthEntityIsGivenFromADrawnOneOn) {
   BotsRecorder recorder({.seed = 1, .clients = 1, .from_s = 0.0, .until_s = 10.0}, {&client_});
   constexpr std::uint32_t count = 4'000, nth = 3;
