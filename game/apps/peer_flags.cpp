@@ -64,9 +64,10 @@ void add_viewing_options(Flags& flags, ViewingOptions& options, Terms& terms, co
       .check(one_of(relevant_kind_names))
       .excludes(join);
   flags
-      .flag("--seated", terms.is_seated,
-            "give each peer the player of one of the first bats, and cut zones around these bats; "
-            "their keys are those that all know; set by the first peer")
+      .flag(
+          "--seated", terms.is_seated,
+          "give each peer the player of one of the first bats, the one in its zone, and cut zones "
+          "around these bats; their keys are those that all know; set by the first peer")
       .excludes(join);
   flags
       .option("--view", options.view_fraction,

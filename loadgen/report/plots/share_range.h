@@ -8,8 +8,8 @@
 namespace rink::loadgen {
 
 /// Both ends of the axis on which `least` is the least share: from below it, at a distance of 1, 2
-/// or 5 times a power of ten from 1, to a little above 1. Shares that all miss little differ
-/// little.
+/// or 5 times a power of ten from 1, to a little above 1. An axis from 0 would draw shares that are
+/// all close to 1 on one another.
 inline std::pair<double, double> share_range(double least) {
   double span = std::max(0.01, 1.05 * (1.0 - least));
   const double decade = std::pow(10.0, std::floor(std::log10(span) + 1e-9)), digit = span / decade;
