@@ -84,11 +84,9 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(zero_or_number_from(1.0, 1e9))
       .shows_default();
   flags
-      .option(
-          "--budget", options.events_per_s,
-          "events of the physics per simulated second; where more come, the game goes on more "
-          "slowly instead of keeping everybody waiting, which is said and counted; not by turns "
-          "nor with --time-management")
+      .option("--budget", options.events_per_s,
+              "events of the physics per simulated second; where more come, the game goes on more "
+              "slowly instead of keeping everybody waiting, which is said and counted")
       .check(whole_number_from(1, 1'000'000'000'000))
       .shows_default();
   flags

@@ -22,11 +22,6 @@ using Json = nlohmann::ordered_json;
 /// The due instant in stamps before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
 
-/// Who takes turns, or keeps to logical time, waits for the whole tick.
-std::uint64_t events_per_s_of(const ServeOptions& options) {
-  return options.pace == "realtime" && !options.is_time_managed ? options.events_per_s : 0;
-}
-
 }  // namespace
 
 ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
@@ -45,7 +40,7 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                 .replay = played.replay,
                 .hosting = hosting_of(options),
                 .key_limit_per_s = options.key_limit_per_s,
-                .events_per_s = events_per_s_of(options),
+                .events_per_s = options.events_per_s,
                 .always_relevant = relevant_kinds_of(played.scene, options.always),
                 .begun = played.begun ? &*played.begun : nullptr},
                federation_of(options, played.scene, federation,
@@ -91,6 +86,7 @@ void ServerProcess::exchange_until(double until_s) {
 
 /// However long the players take, silence is noticed and heartbeats are sent.
 void ServerProcess::await_turns() {
+  if (server_.game().is_cut_short()) serving_.exchange(0.0);  // it may not wait for anybody
   while (!is_interrupted && server_.error().empty() && !server_.may_step()) {
     serving_.exchange(0.25);
     serving_.host().advance_clock(now_s());
@@ -128,7 +124,7 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   const double period_s = 1.0 / options_.rate_hz,
                elapsed_s = static_cast<double>(number) * period_s;
   const double simulated_s =
-      options_.hosted.empty() ? begin_s_ + elapsed_s - behind_s_ : server_.follow_match(elapsed_s);
+      options_.hosted.empty() ? goal(number) : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
   const TickCosts tick = serving_.tick(simulated_s, due_s);
   fall_behind(elapsed_s, simulated_s);
@@ -143,13 +139,24 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
 }
 
-/// Real time does not wait for a tick that was cut short, and nothing is made up for in a rush.
+/// Under time management ticks keep to their grid whatever has been put off.
+double ServerProcess::goal(std::uint64_t number) const {
+  const double period_s = 1.0 / options_.rate_hz;
+  if (options_.is_time_managed)
+    return begin_s_ + static_cast<double>(number - ticks_put_off_) * period_s;
+  return begin_s_ + static_cast<double>(number) * period_s - behind_s_;
+}
+
+/// Neither real time nor the players' turns wait for a tick that was cut short, and nothing is made
+/// up for in a rush.
 void ServerProcess::fall_behind(double elapsed_s, double simulated_s) {
   if (const auto complaint = server_.budget().take_complaint()) warn("--budget: ", *complaint);
+  if (!server_.game().is_cut_short()) return;
   const double played_s = server_.game().now();
-  if (played_s >= simulated_s) return;
-  if (server_.hosted()) server_.hosted()->fall_behind(elapsed_s, played_s);
-  else behind_s_ += simulated_s - played_s;
+  if (options_.is_time_managed)
+    behind_s_ = static_cast<double>(++ticks_put_off_) / options_.rate_hz;
+  else if (!server_.hosted()) behind_s_ += simulated_s - played_s;
+  else if (played_s < simulated_s) server_.hosted()->fall_behind(elapsed_s, played_s);
 }
 
 void ServerProcess::run() {

@@ -62,6 +62,7 @@ class ServerProcess {
   void await_turns();
   void tick(std::uint64_t number, bool is_counted);
   void end_span();
+  double goal(std::uint64_t number) const;
   void fall_behind(double elapsed_s, double simulated_s);
   void keep_records();
   void report_flood();
@@ -76,8 +77,9 @@ class ServerProcess {
   Server& server_;
   MatchRecords records_;
   double start_s_ = 0.0;
-  double behind_s_ = 0.0;  ///< simulated time that real time has lost to the physics' budget
-  mutable double latest_s_ = 0.0;  ///< that simulated_now() has returned
+  double behind_s_ = 0.0;            ///< simulated time that was lost to the physics' budget
+  std::uint64_t ticks_put_off_ = 0;  ///< under time management: it, in ticks
+  mutable double latest_s_ = 0.0;    ///< that simulated_now() has returned
   bool is_flood_reported_ = false;
   Costs costs_;
 };

@@ -77,18 +77,23 @@ TEST(ServeLimits, AFloodOfKeysIsNotFeltAndWhoSendsItIsNamed) {
   EXPECT_THAT(held.ended.words, HasSubstr("key changes above --key-limit were not felt"));
 }
 
-TEST(ServeLimits, AGameWithMoreEventsThanItsBudgetGoesOnMoreSlowlyAndSaysWhy) {
-  const test::TemporaryFolder folder("serve-budget");
-  std::ofstream scene(folder / "row.toml");  // pucks without room from wall to wall
-  scene << "[field]\nlength = 0.9375000000001\nwidth = 0.25\n";
+/// Pucks without room from wall to wall, and a bat beside them.
+std::string row_in(const test::TemporaryFolder& folder) {
+  std::ofstream scene(folder / "row.toml");
+  scene << "[field]\nlength = 0.9375000000001\nwidth = 0.5\n"
+           "[[bat]]\nposition = [0.45, 0.4]\nhalf_extent = [0.05, 0.05]\n";
   for (int k = 0; k < 15; ++k)
     scene << "[[puck]]\nposition = [" << 0.03125 * (2 * k + 1)
           << ", 0.125]\nradius = 0.03125\nvelocity = [" << (k == 7 ? 50.0 : 0.0) << ", 0.0]\n";
-  scene.close();
+  return (folder / "row.toml").string();
+}
+
+TEST(ServeLimits, AGameWithMoreEventsThanItsBudgetGoesOnMoreSlowlyAndSaysWhy) {
+  const test::TemporaryFolder folder("serve-budget");
   const std::string report = (folder / "report.json").string();
   Process server(test::binary_folder() + "/bin/rink-serve",
-                 {"--scene", (folder / "row.toml").string(), "--port", "0", "--duration", "0.5",
-                  "--budget", "20000", "--report", report},
+                 {"--scene", row_in(folder), "--port", "0", "--duration", "0.5", "--budget",
+                  "20000", "--report", report},
                  {});
   for (int i = 0; i < 2000 && !server.ending(); ++i) server.attend(10ms);
   ASSERT_TRUE(server.ending()) << "it hangs";
@@ -102,6 +107,57 @@ TEST(ServeLimits, AGameWithMoreEventsThanItsBudgetGoesOnMoreSlowlyAndSaysWhy) {
   EXPECT_EQ(result.at("ticks_cut_short"), 15) << "all but that of 0 s";
   EXPECT_NEAR(result.at("behind_s").get<double>(), 0.5, 1e-3);
   EXPECT_EQ(result.at("valid"), false);
+}
+
+/// Half a second of the row at a server whose one player takes turns whenever it may.
+struct SlowTurns {
+  Ended ended{};
+  double reached_s = 0.0;  ///< by what the player was told
+  nlohmann::json report{};
+};
+SlowTurns slow_turns(const std::vector<std::string>& pace) {
+  const test::TemporaryFolder folder("serve-slow-turns");
+  const std::string report = (folder / "report.json").string();
+  std::vector<std::string> flags{"--scene",  row_in(folder), "--clients", "1",        "--port",
+                                 "0",        "--duration",   "0.5",       "--budget", "20000",
+                                 "--report", report};
+  flags.insert(flags.end(), pace.begin(), pace.end());
+  Process server(test::binary_folder() + "/bin/rink-serve", flags, {});
+  const std::optional<std::string> place = place_of(server);
+  if (!place) return {.ended = {.status = -1, .words = server.stderr_tail()}};
+  Guest guest(*place, {.name = "bat-0"});
+  SlowTurns slow;
+  for (const double give_up_s = Guest::now_s() + 15.0;
+       !server.ending() && Guest::now_s() < give_up_s;) {
+    guest.exchange();
+    server.attend(0ms);
+    slow.reached_s = std::max(slow.reached_s, guest.client.turns().turn_s());
+    if (guest.client.state() == Client::State::playing && guest.client.turns().has_turn())
+      guest.client.end_turn();
+  }
+  if (server.ending())
+    slow.ended = {.status = server.ending()->exit_status, .words = server.stderr_tail()};
+  slow.report = nlohmann::json::parse(std::ifstream(report), nullptr, false);
+  return slow;
+}
+
+TEST(ServeLimits, NeitherTurnsNorLogicalTimeHangWhereAGameHasMoreEventsThanItsBudget) {
+  using Flags = std::vector<std::string>;
+  for (const Flags& pace : {Flags{"--pace", "synchronous"}, Flags{"--time-management"},
+                            Flags{"--pace", "synchronous", "--time-management"}}) {
+    const bool is_time_managed = pace.back() == "--time-management";
+    SCOPED_TRACE(testing::PrintToString(pace));
+    const SlowTurns slow = slow_turns(pace);
+    ASSERT_EQ(slow.ended.status, 0) << slow.ended.words;
+    EXPECT_THAT(slow.ended.words, HasSubstr("--budget: 20001 events within a simulated second"));
+    EXPECT_THAT(slow.ended.words, HasSubstr("by at most 166 events a tick"));
+    EXPECT_EQ(slow.ended.words.find("shows ticks only once they are played") != std::string::npos,
+              is_time_managed);
+    EXPECT_EQ(slow.report.at("ticks_cut_short"), 15) << "all but that of 0 s";
+    EXPECT_NEAR(slow.report.at("behind_s").get<double>(), 0.5, 1e-3);
+    EXPECT_EQ(slow.report.at("valid"), false);
+    EXPECT_LT(slow.reached_s, 1e-3);
+  }
 }
 
 TEST(ServeLimits, AreAsWideAsTheyAreSaidToBe) {

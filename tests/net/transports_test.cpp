@@ -83,12 +83,15 @@ struct Outcome {
   std::uint64_t datagrams = 0;
   std::uint64_t replayed_hash = 0;  ///< of the game played alone with the recorded keys
   std::uint64_t grants = 0, timed_sent = 0;
+  std::uint64_t cut_short = 0;   ///< ticks
+  std::uint64_t told_wrong = 0;  ///< how often a player had another time than the game
 };
 
 /// Four players, 60 ticks, keys by a seed.
 class SynchronousGame {
  public:
-  SynchronousGame(const Carrier& carrier, const std::string& policy, bool is_time_managed = false)
+  SynchronousGame(const Carrier& carrier, const std::string& policy, bool is_time_managed = false,
+                  std::uint64_t events_per_s = 0)
       : carrier_(carrier),
         scene_(small_crowd()),
         fom_(load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml")),
@@ -97,7 +100,8 @@ class SynchronousGame {
                  {.policy = policy,
                   .is_synchronous = true,
                   .is_time_managed = is_time_managed,
-                  .replay = {}},
+                  .replay = {},
+                  .events_per_s = events_per_s},
                  federation_settings(scene_, "region", 0.0),
                  {now_s, [this] { return serving_.server().game().now(); }}) {
     serving_.host().add(carrier.server());
@@ -134,6 +138,7 @@ class SynchronousGame {
       }
       until([&] { return serving_.server().may_step(); }, [] {});
       serving_.tick(tick / 30.0, 0.0);
+      while (serving_.server().game().is_cut_short()) go_on_with(tick);
       // Everybody's view follows before the next turn, so that it is the same however long news
       // takes.
       settle();
@@ -155,6 +160,22 @@ class SynchronousGame {
     return std::ranges::all_of(players_, [](const Player& each) {
       return each.client->state() == Client::State::playing;
     });
+  }
+  /// A player takes turns at instants that the game has reached, and none within a tick of logical
+  /// time.
+  void go_on_with(int tick) {
+    settle();
+    const double now = serving_.server().game().now();
+    for (Player& player : players_) {
+      const TurnTaker& turns = player.client->turns();
+      const bool has_whole_ticks = turns.is_time_managed();
+      if (turns.has_turn() == has_whole_ticks ||
+          turns.turn_s() != (has_whole_ticks ? (tick - 1) / 30.0 : now))
+        ++told_wrong_;
+      if (turns.has_turn()) player.client->end_turn();
+    }
+    until([&] { return serving_.server().may_step(); }, [] {});
+    serving_.tick(tick / 30.0, 0.0);
   }
   void round() {
     carrier_.pass_time();
@@ -192,6 +213,8 @@ class SynchronousGame {
     outcome.replayed_hash = alone.hash();
     outcome.grants = serving_.execution().counters().time_advance_grants;
     outcome.timed_sent = serving_.execution().counters().timed_sent;
+    outcome.cut_short = serving_.server().budget().counters().ticks_cut_short;
+    outcome.told_wrong = told_wrong_;
     outcome.datagrams = serving_.execution().counters().datagrams_sent;
     for (const Player& each : players_) {
       auto& seen = outcome.seen.emplace_back();
@@ -210,6 +233,7 @@ class SynchronousGame {
   Serving serving_;
   rti::FederateLinks links_;
   std::deque<Player> players_;
+  std::uint64_t told_wrong_ = 0;
 };
 
 class EveryTransportsGame : public testing::TestWithParam<const char*> {};
@@ -250,6 +274,22 @@ TEST_P(EveryTransportsGame, IsTheSameToTheBitUnderTimeManagement) {
     EXPECT_EQ(is.seen, expected.seen);
     EXPECT_GE(is.grants, 60u * 5u);      // to four players and the server, for each tick
     EXPECT_GT(is.timed_sent, 60u * 4u);  // turns and keys at least
+  }
+}
+
+TEST_P(EveryTransportsGame, IsTheSameToTheBitWithTicksCutShortByABudget) {
+  const Outcome expected = SynchronousGame(in_process(), GetParam()).play();
+  EXPECT_EQ(expected.cut_short, 0u);
+  for (const bool is_time_managed : {false, true}) {
+    SCOPED_TRACE(is_time_managed ? "time management" : "turns");
+    const Outcome is = SynchronousGame(in_process(), GetParam(), is_time_managed, 20).play();
+    EXPECT_GT(is.cut_short, 20u);
+    EXPECT_EQ(is.told_wrong, 0u);
+    EXPECT_EQ(is.state_hash, expected.state_hash);
+    EXPECT_EQ(is.replayed_hash, expected.state_hash);
+    if (is_time_managed) {
+      EXPECT_EQ(is.seen, expected.seen);
+    }
   }
 }
 

@@ -25,7 +25,9 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       turns_({.tick_s = settings.tick_s,
               .is_synchronous = settings.is_synchronous,
               .is_time_managed = settings.is_time_managed}),
-      budget_({.events_per_s = settings.events_per_s, .tick_s = settings.tick_s}),
+      budget_({.events_per_s = settings.events_per_s,
+               .tick_s = settings.tick_s,
+               .has_whole_ticks = settings.is_time_managed}),
       always_relevant_(settings.always_relevant.value_or(relevant_kinds_of(scene))) {
   assert(!settings.hosting || (!is_replay_ && !settings.is_time_managed && !settings.begun));
   if (settings.hosting) hosted_.emplace(*settings.hosting, scene);
@@ -153,7 +155,7 @@ void Server::receive_key(std::uint32_t player, bool is_down, rti::Bytes paramete
 
 double Server::simulate(double until) {
   const bool has_arrived = budget_.advance(game_, until);
-  turns_.stepped();
+  turns_.stepped(has_arrived);
   // Keys of the very instant in which it was cut short are not felt yet.
   keys_.feel_until(has_arrived ? until : std::nextafter(game_.now(), -1.0));
   seats_.begin_turns();
@@ -161,7 +163,8 @@ double Server::simulate(double until) {
   return game_.now();
 }
 
-void Server::publish(const rti::Stamp& stamp) {
+bool Server::publish(const rti::Stamp& stamp) {
+  if (turns_.is_within_tick()) return false;
   publisher_->publish(game_, keys_.felt(), stamp);
   if (hosted_) board_->show(hosted_->state(), stamp);
   if (turns_.take_step()) send_pace({}, stamp.time);
@@ -169,6 +172,7 @@ void Server::publish(const rti::Stamp& stamp) {
   seats_.offer([this](rti::FederateHandle federate, std::uint32_t player) {
     return offer_bat(federate, player);
   });
+  return true;
 }
 
 /// A player is sent its seat once the bat is in play; one that comes back to a running game may

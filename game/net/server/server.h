@@ -100,8 +100,9 @@ class Server : public rti::FederateAmbassador {
   double simulate(double until);
   TickBudget& budget() { return budget_; }
   const TickBudget& budget() const { return budget_; }
-  /// Publishes all changes with the stamp.
-  void publish(const rti::Stamp& stamp);
+  /// Publishes all changes with the stamp; false, and nothing, if a tick was cut short that has to
+  /// be played to its end first.
+  bool publish(const rti::Stamp& stamp);
   /// Publishes flights from now on, and moves regions only for new ones; call it before the server
   /// has joined.
   void hand_in_flights() { hands_in_flights_ = true; }

@@ -62,11 +62,13 @@ TickCosts Serving::tick(double simulated_s, double due_s) {
   Stopwatch watch(now_s_);
   const double played_s = server_.simulate(simulated_s);
   watch.add_to(costs.physics_s);
-  send(played_s, due_s, costs);
-  for (const Inspections::Question& each : server_.inspections().take())
-    server_.send_interest(each.federate, interest_report(server_, execution_, each.object));
-  if (recorder_)
-    recorder_->look(server_, execution_, {played_s, costs.physics_s, costs.filter_s, costs.send_s});
+  if (send(played_s, due_s, costs)) {
+    for (const Inspections::Question& each : server_.inspections().take())
+      server_.send_interest(each.federate, interest_report(server_, execution_, each.object));
+    if (recorder_)
+      recorder_->look(server_, execution_,
+                      {played_s, costs.physics_s, costs.filter_s, costs.send_s});
+  }
   host_.advance_clock(now_s_());
   return costs;
 }
@@ -76,21 +78,25 @@ std::optional<ServerTrace> Serving::trace() const {
   return recorder_->trace(server_);
 }
 
-void Serving::send(double simulated_s, double due_s, TickCosts& costs) {
+bool Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   Stopwatch watch(now_s_);
   const bool is_hosting =
       server_.hosted() !=
       nullptr;  // players of matches ask for the time instead, which saves the bytes of the tag
-  server_.publish({.time = simulated_s,
-                   .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
+  const bool is_published = server_.publish(
+      {.time = simulated_s,
+       .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
   link_.flush(now_s_());
   host_.poll({});
-  push_filter_hints(server_, execution_);
-  watch.add_to(costs.send_s);
-  host_.match();
-  watch.add_to(costs.filter_s);
+  if (is_published) {
+    push_filter_hints(server_, execution_);
+    watch.add_to(costs.send_s);
+    host_.match();
+    watch.add_to(costs.filter_s);
+  }
   host_.flush();
   watch.add_to(costs.send_s);
+  return is_published;
 }
 
 rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,

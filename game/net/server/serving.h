@@ -45,9 +45,10 @@ class Serving {
   /// once, not with the tick, so that keys are stamped when they arrive.
   void exchange(double longest_wait_s);
 
-  /// One tick: plays up to `simulated_s` [s], or as far as the server's budget lets it, publishes,
-  /// matches and flushes. `due_s` [s] is the instant on the owner's clock at which it was due, 0
-  /// before the start; clients get it as the stamp's tag, unless they play hosted matches.
+  /// One tick: plays up to `simulated_s` [s], or as far as the server's budget lets it, publishes
+  /// (see Server::publish), matches and flushes. `due_s` [s] is the instant on the owner's clock at
+  /// which it was due, 0 before the start; clients get it as the stamp's tag, unless they play
+  /// hosted matches.
   TickCosts tick(double simulated_s, double due_s);
 
   /// Watches every tick from now on.
@@ -58,8 +59,9 @@ class Serving {
   std::optional<ServerTrace> trace() const;
   std::size_t evidence_bytes() const { return recorder_ ? recorder_->memory_bytes() : 0; }
 
-  /// Publishes, matches and flushes without playing: one write per destination.
-  void send(double simulated_s, double due_s, TickCosts& costs);
+  /// Publishes, matches and flushes without playing: one write per destination. False if there was
+  /// nothing to publish yet, and so nothing to match.
+  bool send(double simulated_s, double due_s, TickCosts& costs);
 
  private:
   Clock now_s_;

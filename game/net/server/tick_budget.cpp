@@ -31,22 +31,25 @@ bool TickBudget::advance(Game& game, double until) {
   }
   if (events_->is_exceeded()) events_->grant(share());
   const double begin = game.now();
-  if (game.advance(until, *events_)) return true;
-  count(game, begin, until);
-  return false;
+  const bool goes_on = settings_.has_whole_ticks && game.is_cut_short(),
+             has_arrived = game.advance(until, *events_);
+  assert(begin <= game.now() && game.now() <= until);
+  if (!has_arrived) ++counters_.ticks_cut_short;
+  if (!has_arrived || goes_on) {
+    counters_.played_s += game.now() - begin;
+    counters_.wanted_s += settings_.has_whole_ticks ? settings_.tick_s : until - begin;
+  }
+  if (counters_.ticks_cut_short >= said_at_) say(game);
+  return has_arrived;
 }
 
-void TickBudget::count(const Game& game, double begin, double until) {
-  assert(begin <= game.now() && game.now() <= until);
-  ++counters_.ticks_cut_short;
-  counters_.played_s += game.now() - begin;
-  counters_.wanted_s += until - begin;
-  if (counters_.ticks_cut_short < said_at_) return;
+void TickBudget::say(const Game& game) {
   said_at_ *= 10;
   std::ostringstream text;
   if (counters_.ticks_cut_short == 1)
     text << physics::text_of(physics::overrun_of(game.world(), *events_))
-         << "; the game goes on more slowly, by at most " << share() << " events a tick";
+         << "; the game goes on more slowly, by at most " << share() << " events a tick"
+         << (settings_.has_whole_ticks ? ", and shows ticks only once they are played" : "");
   else
     text << "the game goes on at " << counters_.pace()
          << " of its pace: " << counters_.ticks_cut_short << " ticks were cut short, " << game.now()

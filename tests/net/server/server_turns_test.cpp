@@ -35,11 +35,23 @@ TEST(ServerTurns, TellPlayersOfAStepOnceWhereNobodyElseDoes) {
     for (const bool is_time_managed : {false, true}) {
       ServerTurns turns({.is_synchronous = is_synchronous, .is_time_managed = is_time_managed});
       EXPECT_FALSE(turns.take_step());
-      turns.stepped();
+      turns.stepped(true);
       EXPECT_EQ(turns.take_step(), is_synchronous && !is_time_managed);
       EXPECT_FALSE(turns.take_step());
       EXPECT_EQ(turns.concerns_players(), is_synchronous || is_time_managed);
     }
+}
+
+TEST(ServerTurns, WaitForNobodyWithinATickOfLogicalTime) {
+  for (const bool is_time_managed : {false, true}) {
+    ServerTurns turns({.tick_s = 0.1, .is_synchronous = true, .is_time_managed = is_time_managed});
+    turns.stepped(false);
+    EXPECT_EQ(turns.is_within_tick(), is_time_managed);
+    EXPECT_EQ(turns.may_step(false, 1.07, 1.06), is_time_managed);
+    turns.stepped(true);
+    EXPECT_FALSE(turns.is_within_tick());
+    EXPECT_FALSE(turns.may_step(false, 1.1, 1.06));
+  }
 }
 
 TEST(ServerTurns, TellWhoComesAfterTheCallThatHeIsLate) {

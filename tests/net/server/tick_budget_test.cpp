@@ -49,6 +49,25 @@ TEST(ATickBudget, CutsTicksShortSaysSoOnceInTenTimesAsManyAndChangesNothing) {
   EXPECT_GT(budget.counters().pace(), 0.0);
 }
 
+TEST(ATickBudget, PlaysWholeTicksInPartsAndCountsAllOfThem) {
+  constexpr double tick_s = 0.1;
+  Game with(crowd()), without(crowd());
+  TickBudget budget({.events_per_s = 40, .tick_s = tick_s, .has_whole_ticks = true});
+  std::uint64_t parts = 0;
+  for (int tick = 1; tick <= 30; ++tick)
+    while (!budget.advance(with, tick * tick_s)) ++parts;
+  without.advance(30 * tick_s);
+  EXPECT_EQ(with.hash(), without.hash());
+  EXPECT_GE(parts, 10u);
+  EXPECT_EQ(budget.counters().ticks_cut_short, parts);
+  EXPECT_NEAR(budget.counters().wanted_s - budget.counters().played_s,
+              static_cast<double>(parts) * tick_s, 1e-9)
+      << "each part but a tick's last has cost a tick";
+  const auto complaint = budget.take_complaint();
+  ASSERT_TRUE(complaint);
+  EXPECT_THAT(*complaint, HasSubstr("of its pace"));
+}
+
 TEST(ATickBudget, BeginsAnewWithAnotherGame) {
   Game first(crowd()), second(crowd()), alone(crowd());
   TickBudget budget({.events_per_s = 40, .tick_s = 0.1});

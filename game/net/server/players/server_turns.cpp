@@ -17,6 +17,7 @@ std::optional<double> ServerTurns::wanted(double played, double granted) const {
 }
 
 bool ServerTurns::may_step(bool are_all_turns_done, double played, double granted) const {
+  if (is_within_tick_) return true;
   return settings_.is_time_managed ? granted >= grid().turns_heard(played) : are_all_turns_done;
 }
 

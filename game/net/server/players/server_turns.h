@@ -33,7 +33,15 @@ class ServerTurns {
   void start() { is_started_ = true; }
   bool is_started() const { return is_started_; }
 
-  void stepped() { has_stepped_ = true; }
+  /// `has_arrived`: as far as it was to go, and not cut short (tick_budget.h).
+  void stepped(bool has_arrived) {
+    has_stepped_ = true;
+    is_within_tick_ = settings_.is_time_managed && !has_arrived;
+  }
+  /// True if nothing may be said before the rest of the tick is played: under time management
+  /// states exist at ticks alone, for the server's lookahead keeps it from a time stamp before the
+  /// next.
+  bool is_within_tick() const { return is_within_tick_; }
   /// True once after a step that only a message of the server shows to players.
   bool take_step() {
     return std::exchange(has_stepped_, false) && settings_.is_synchronous &&
@@ -41,7 +49,8 @@ class ServerTurns {
   }
   /// The logical time to request, if any, now that all up to `played` was published.
   std::optional<double> wanted(double played, double granted) const;
-  /// True if the tick after `played` may come: no earlier message can arrive any more.
+  /// True if the tick after `played`, or the rest of one, may come: no earlier message can arrive
+  /// any more.
   bool may_step(bool are_all_turns_done, double played, double granted) const;
 
  private:
@@ -50,6 +59,7 @@ class ServerTurns {
   TurnSettings settings_;
   bool is_called_ = false, is_started_ = false;
   bool has_stepped_ = false;  ///< since players were last notified
+  bool is_within_tick_ = false;
 };
 
 }  // namespace rink::game
