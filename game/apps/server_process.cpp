@@ -249,7 +249,7 @@ Json ServerProcess::report() const {
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
   const TickBudgetCounters& budget = server_.budget().counters();
   if (why_invalid.empty() && budget.ticks_cut_short > 0)
-    why_invalid = "the physics exceeded --budget, and the game fell behind";
+    why_invalid = "the physics exceeded --budget: " + text_of(budget);
   Json report{{report::mode, "client-server"},
               {report::scheme, options_.scheme},
               {report::policy, options_.policy},

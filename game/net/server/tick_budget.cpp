@@ -9,6 +9,13 @@
 
 namespace rink::game {
 
+std::string text_of(const TickBudgetCounters& counters) {
+  std::ostringstream text;
+  text << counters.ticks_cut_short << " ticks were cut short, and the game fell "
+       << counters.wanted_s - counters.played_s << " s behind";
+  return text.str();
+}
+
 TickBudget::TickBudget(const TickBudgetSettings& settings) : settings_(settings) {
   assert(settings.tick_s > 0.0);
   begin();

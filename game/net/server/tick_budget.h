@@ -27,6 +27,9 @@ struct TickBudgetCounters {
   double pace() const { return wanted_s > 0.0 ? played_s / wanted_s : 1.0; }
 };
 
+/// "N ticks were cut short, and the game fell S s behind".
+std::string text_of(const TickBudgetCounters& counters);
+
 /// A second that has more events than may be is cut short where they exceed it; from then on each
 /// tick, or part of one, plays a quarter of a tick's share of them, until the next second begins.
 /// So the game falls behind, and whoever waits for the server does not wait long. Says so when it
