@@ -48,7 +48,10 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   parts_.observers.before = nullptr;
   const Counters& after = parts_.record.counters();
   orders_.resize(parts_.record.events().size(), order);
-  for (const std::uint32_t other : changed_) note_speed(other);
+  for (const std::uint32_t other : changed_) {
+    note_speed(other);
+    if (parts_.places.grid().is_in_one_cell(other)) tile_.mark(other, partner::none, order.time);
+  }
   const bool is_usual = after.hops == before.hops && after.freezes == before.freezes &&
                         after.rests == before.rests &&
                         after.joint_impacts == before.joint_impacts &&

@@ -235,27 +235,35 @@ bool Slabs::is_right() const {
 }
 
 /// Whether its course meets one that it was not compared with, as that was over or had gone on to
-/// cells out of sight.
+/// cells out of sight. Both take a later event, of which the cell tells where the other body is.
 bool Slabs::meets_unseen(const Courses::Late& late, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
   const auto radius = 2 + static_cast<std::uint32_t>(std::ceil(static_cast<double>(
                               speed * (shared_.end - late.from) / Real(grid.side()))));
   const std::uint32_t column = late.place.column, row = late.place.row;
   const Real end = std::min(end_of(late), shared_.end);
+  const std::uint32_t column_end = std::min(grid.columns(), column + radius + 1),
+                      row_end = std::min(grid.rows(), row + radius + 1);
   bool meets = false;
-  grid.within({column - std::min(column, radius), row - std::min(row, radius), column + radius,
-               row + radius},
-              [&](std::uint32_t other) {
-                if (meets || other == late.body) return;
-                meets = meets_by(late, {other, parts_.bodies[other]}, end);
-                for (std::uint32_t at = latest_of(other); at != Courses::none && !meets;) {
-                  const Courses::Replaced& r = course_at(at);
-                  if (!(r.end > late.from)) return;
-                  meets = meets_by(late, {other, r.flight}, std::min(r.end, end));
-                  at = r.earlier;
-                }
-              });
+  for (std::uint32_t r = row - std::min(row, radius); r < row_end; ++r)
+    for (std::uint32_t c = column - std::min(column, radius); c < column_end; ++c) {
+      if (!(shared_.played[std::size_t{r} * grid.columns() + c] > late.from)) continue;
+      grid.within({c, r, c, r},
+                  [&](std::uint32_t other) { meets = meets || meets_unseen(late, other, end); });
+    }
   return meets;
+}
+
+bool Slabs::meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const {
+  if (other == late.body) return false;
+  if (meets_by(late, {other, parts_.bodies[other]}, end)) return true;
+  for (std::uint32_t at = latest_of(other); at != Courses::none;) {
+    const Courses::Replaced& r = course_at(at);
+    if (!(r.end > late.from)) return false;
+    if (meets_by(late, {other, r.flight}, std::min(r.end, end))) return true;
+    at = r.earlier;
+  }
+  return false;
 }
 
 /// Asked as prediction asks, so that a meeting that it knows comes at the same bits. Laws of motion

@@ -36,9 +36,10 @@
 // cell next to its own has seen a later event. Its courses, until their next events, are compared
 // with all replaced courses that end after it, and with the present ones, for a crossing may have
 // taken somebody out of sight too early. They belong to bodies that are listed within vT/c cells
-// and two, v being the greatest speed in the window, T what is left of it and c a cell's side. A
-// crossing marks both its cells, so nobody has left the neighbourhood unseen. The block radius
-// changes how much is put off and how often the check fails, never the result.
+// and two, v being the greatest speed in the window, T what is left of it and c a cell's side. All
+// have had a later event, so only cells that have seen one are searched. A crossing marks both its
+// cells, so nobody has left the neighbourhood unseen. The block radius changes how much is put off
+// and how often the check fails, never the result.
 //
 // Undo. Where the check fails, or the last pass did what depends on more than the bodies concerned
 // (a joint impact, a hop, a rest contact, a goal, many events at one instant), what bodies were
@@ -110,6 +111,7 @@ class Slabs {
   void take_put_off();
   bool is_right() const;
   bool meets_unseen(const Courses::Late& late, Real speed) const;
+  bool meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const;
   bool meets_by(const Courses::Late& late, const Course& other, Real end) const;
   Motion motion_of(const Course& course) const;
   std::uint32_t latest_of(std::uint32_t body) const;
