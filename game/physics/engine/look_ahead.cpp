@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "game/physics/prefetch.h"
+
 namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
@@ -15,14 +17,14 @@ bool LookAhead::is_worthwhile() const {
 }
 
 void LookAhead::fetch_body(std::uint32_t body) const {
-  __builtin_prefetch(&bodies_[body], 1);
-  __builtin_prefetch(&events_[body], 1);
+  prefetch(&bodies_[body]);
+  prefetch(&events_[body]);
   grid_.prefetch_place(body);
   events_.upcoming().prefetch(body);
 }
 
 void LookAhead::fetch_collected(std::uint32_t count) const {
-  for (std::uint32_t k = 0; k < count; ++k) __builtin_prefetch(&bodies_[candidates_[k]]);
+  for (std::uint32_t k = 0; k < count; ++k) prefetch(&bodies_[candidates_[k]]);
 }
 
 bool LookAhead::meets(std::uint32_t body) const {

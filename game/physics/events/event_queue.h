@@ -10,6 +10,7 @@
 
 #include "game/physics/events/event_order.h"
 #include "game/physics/large_pages.h"
+#include "game/physics/prefetch.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -56,7 +57,7 @@ class EventQueue {
     for (std::uint32_t k = 0; k < counts_[bucket]; ++k) visit(buckets_[bucket].bodies[k]);
   }
   /// Asks the processor to fetch the entry of `body`.
-  void prefetch(std::uint32_t body) const { __builtin_prefetch(&entries_[body], 1); }
+  void prefetch(std::uint32_t body) const { physics::prefetch(&entries_[body]); }
 
  private:
   using Entry = EventOrder;

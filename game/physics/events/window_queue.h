@@ -11,6 +11,7 @@
 #include "game/physics/events/event_bins.h"
 #include "game/physics/events/event_order.h"
 #include "game/physics/large_pages.h"
+#include "game/physics/prefetch.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -54,7 +55,7 @@ class WindowQueue {
   void upcoming(std::int64_t distance, Visit&& visit) const {
     bins_.upcoming(distance, visit);
   }
-  void prefetch(std::uint32_t body) const { __builtin_prefetch(&entries_[body], 1); }
+  void prefetch(std::uint32_t body) const { physics::prefetch(&entries_[body]); }
 
  private:
   bool open(Real until);

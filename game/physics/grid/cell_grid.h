@@ -11,6 +11,7 @@
 #include "game/physics/grid/cell_lists.h"
 #include "game/physics/grid/wide_bodies.h"
 #include "game/physics/large_pages.h"
+#include "game/physics/prefetch.h"
 
 namespace rink::physics {
 
@@ -121,7 +122,7 @@ class CellGrid {
 
   /// Ask the processor to fetch the place of `body`; of a small one also the cells that collect()
   /// would read, and those of a move() and collect_ahead().
-  void prefetch_place(std::uint32_t body) const { __builtin_prefetch(&places_[body], 1); }
+  void prefetch_place(std::uint32_t body) const { prefetch(&places_[body]); }
   void prefetch_cells(std::uint32_t body) const { cells_.prefetch_nine(cell_of(body)); }
   void prefetch_cells_ahead(std::uint32_t body, Direction direction) const {
     const std::size_t from = cell_of(body), to = cells_.neighbour(from, direction);

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "game/physics/large_pages.h"
+#include "game/physics/prefetch.h"
 
 namespace rink::physics {
 
@@ -99,7 +100,7 @@ class CellLists {
   }
 
   /// Ask the processor to fetch a cell, or what collect_nine() and collect_three() would read.
-  void prefetch(std::size_t cell) const { __builtin_prefetch(&lists_[cell * stride_], 1); }
+  void prefetch(std::size_t cell) const { physics::prefetch(&lists_[cell * stride_]); }
   void prefetch_nine(std::size_t middle) const {
     for (const std::size_t row : {middle - pitch_, middle, middle + pitch_})
       prefetch(row - 1), prefetch(row + 1);
