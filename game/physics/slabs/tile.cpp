@@ -7,6 +7,7 @@
 
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/free_impact.h"
+#include "game/physics/prefetch.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -37,7 +38,7 @@ void Tile::play(const CellRange& range, std::span<const std::uint32_t> bodies, b
   latest_ = clock();
   clock_ = {};  // of another place: it begins anew
   open(range);
-  if (8 * bodies.size() >= blocked_.size()) fetch();
+  fetch(bodies);
   const EventOrder* entries = events_.windows()->entries();
   bins_.open(shared_.begin, shared_.end, bodies.size());
   for (const std::uint32_t body : bodies) bins_.add(body, entries[body]);
@@ -73,18 +74,39 @@ void Tile::open(const CellRange& range) {
     close({range.first_column, range.end_row - margin, range.end_column, range.end_row});
 }
 
-/// Asks the processor for all that is in the tile, which the events will look at in any order.
-void Tile::fetch() const {
-  const EventOrder* entries = events_.windows()->entries();
+/// Asks the processor for what the events will look at: all that is in the tile, or around `bodies`
+/// where these are few.
+void Tile::fetch(std::span<const std::uint32_t> bodies) {
+  if (32 * bodies.size() >= blocked_.size()) return fetch_all();
+  for (const std::uint32_t body : bodies) {
+    fetch(body);
+    places_.grid().prefetch_cells(body);
+  }
+  near_.resize(places_.grid().collected_max());
+  for (const std::uint32_t body : bodies) {
+    const std::uint32_t count = places_.grid().collect(body, near_.data());
+    for (std::uint32_t k = 0; k < count; ++k) prefetch(&bodies_[near_[k]]);
+    if (is_body(events_[body].partner)) fetch(events_[body].partner);
+  }
+}
+
+void Tile::fetch_all() {
   places_.grid().within({static_cast<std::uint32_t>(range_.first_column),
                          static_cast<std::uint32_t>(range_.first_row),
                          static_cast<std::uint32_t>(range_.end_column - 1),
                          static_cast<std::uint32_t>(range_.end_row - 1)},
-                        [&](std::uint32_t body) {
-                          __builtin_prefetch(&bodies_[body], 1);
-                          __builtin_prefetch(&events_[body], 1);
-                          __builtin_prefetch(&entries[body], 1);
-                        });
+                        [&](std::uint32_t body) { fetch(body); });
+  constexpr int line = 64 / sizeof(Real);
+  for (int row = range_.first_row; row < range_.end_row; ++row)
+    for (int column = range_.first_column; column < range_.end_column; column += line)
+      prefetch(&shared_.played_at(column, row, static_cast<int>(places_.grid().columns())));
+}
+
+void Tile::fetch(std::uint32_t body) const {
+  prefetch(&bodies_[body]);
+  prefetch(&events_[body]);
+  prefetch(events_.windows()->entries() + body);
+  places_.grid().prefetch_place(body);
 }
 
 /// The next event of `body`.

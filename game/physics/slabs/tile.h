@@ -69,6 +69,8 @@ class Tile {
   bool mark(std::uint32_t body, Partner partner, Real time);
   void note_late(std::uint32_t body, Real time);
   bool put_back(std::uint32_t body, Real time);
+  /// Its next event, as if nothing were known, and tells the schedule.
+  void predict(std::uint32_t body) { prediction_.predict(body); }
 
   /// Since begin_window().
   std::vector<std::uint32_t>& put_off() { return put_off_; }
@@ -93,7 +95,9 @@ class Tile {
   };
 
   void open(const CellRange& range);
-  void fetch() const;
+  void fetch(std::span<const std::uint32_t> bodies);
+  void fetch_all();
+  void fetch(std::uint32_t body) const;
   Encounter encounter_of(std::uint32_t body, Real time) const;
   bool play_event(const Encounter& encounter);
   bool cross(std::uint32_t body);
@@ -122,7 +126,7 @@ class Tile {
   CellRange range_{};
   bool can_be_late_ = false, is_whole_ = false;
   std::vector<Blocked> blocked_;  // by cell of the range
-  std::vector<std::uint32_t> put_off_, awakened_;
+  std::vector<std::uint32_t> put_off_, awakened_, near_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION
