@@ -23,6 +23,9 @@ namespace {
 constexpr std::uint64_t at_once_max = Clock::endless_events / 2;
 /// The shortest window, in units of that in which a third of the pending events come.
 constexpr double least_window = 1.0 / 16.0;
+/// Windows get shorter by that where one had to be undone, and else longer, so that one in twenty
+/// is; not below that part of what the plan says.
+constexpr double shorter = 0.8, longer = 1.01, least_share = 0.125;
 }  // namespace
 
 Slabs::Slabs(Engine& engine, const SlabPlan& plan)
@@ -48,7 +51,7 @@ std::optional<Goal> Slabs::advance(Real until) {
 
 Real Slabs::next_end(Real until) const {
   const Real now = parts_.clock.now, third = parts_.events.windows()->next_end(now) - now;
-  return std::min(until, now + third * Real(plan_.window));
+  return std::min(until, now + third * Real(plan_.window * share_));
 }
 
 /// Each window looks at all that have an event.
@@ -65,6 +68,7 @@ bool Slabs::play_window(Real end) {
   play_passes();
   const bool was_right = is_right();
   be_patient(was_right && was_worth_it());
+  share_ = was_right ? std::min(1.0, share_ * longer) : std::max(least_share, share_ * shorter);
   was_right ? accept() : undo();
   return was_right;
 }
@@ -136,15 +140,15 @@ void Slabs::play_passes() {
 
 void Slabs::play_tiles() {
   const int half = plan_.tile_cells / 2;
-  std::vector<std::uint32_t> due;
+  due_.clear();
   WindowQueue& queue = *parts_.events.windows();
   for (const std::uint32_t body : queue.listed())
-    if (queue.entries()[body].time <= shared_.end) due.push_back(body);
-  play_pass({0, 0, true}, due);
+    if (queue.entries()[body].time <= shared_.end) due_.push_back(body);
+  play_pass({0, 0, true}, due_);
   for (const Pass& pass : {Pass{half, half, false}, Pass{half, 0, false}, Pass{0, half, false}}) {
     if (put_off_.empty()) return;
-    due.swap(put_off_);
-    play_pass(pass, due);
+    changed_.swap(put_off_);
+    play_pass(pass, changed_);
   }
 }
 
@@ -400,7 +404,26 @@ void Slabs::undo() {
   ++slab_counters().undone;
   parts_.record.replace_from(events_before_, {});
   parts_.bodies.forget_touched();
-  engine_.rebuild_from_state();
+  const bool is_all_in_flight = parts_.bodies.curved_count() == 0 && !last_pass_->solver_failed();
+  is_all_in_flight ? look_anew() : engine_.rebuild_from_state();
+}
+
+/// Who had an event or was hit is listed where it was and looks around once more; what all others
+/// expect holds again.
+void Slabs::look_anew() {
+  changed_ = due_;
+  for (Tile* tile : all_tiles_)
+    for (const Courses::Replaced& r : tile->courses().replaced()) changed_.push_back(r.body);
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  for (const std::uint32_t body : changed_) {
+    parts_.places.remove(body);
+    parts_.places.insert(body, motion_at(parts_.bodies, body, shared_.begin).position);
+  }
+  WindowQueue& queue = *parts_.events.windows();
+  queue.reopen(shared_.begin, shared_.end, {});  // or each event would be sorted in at once
+  for (const std::uint32_t body : changed_) last_pass_->tile().predict(body);
+  queue.reopen(shared_.begin, shared_.end, queue.listed());
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION
