@@ -4,6 +4,7 @@
 #include "game/net/exit_status.h"
 #include "game/net/limits.h"
 #include "game/net/relevant_kinds.h"
+#include "game/process/thread_team.h"
 #include "im/filter.h"
 #include "rti/transport/socket_transport.h"
 
@@ -110,6 +111,12 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags.flag("--second-core", options.has_second_core,
              "let another thread take half of each match of interest where that is faster "
              "(docs/im.md); the decisions are the same");
+  flags
+      .option("--threads", options.threads,
+              "threads that play parts of a field of free pucks at once, with the same results "
+              "(docs/physics.md)")
+      .check(whole_number_from(1, ThreadTeam::count_max))
+      .shows_default();
   flags
       .option("--sweep-ticks", options.sweep_ticks,
               "ticks ahead over which an entity's update region is swept; 0: its present place")

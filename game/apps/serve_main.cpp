@@ -18,6 +18,7 @@
 #include "game/net/record_file.h"
 #include "game/net/server/serve_requirements.h"
 #include "game/net/server/serve_status.h"
+#include "game/process/thread_team.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
 #include "rti/federation_file.h"
@@ -52,14 +53,25 @@ ExitStatus show_status(const ServeOptions& options) try {
   return ExitStatus::no_server;
 }
 
+/// The game of the options, if there is room for it and the team.
+ServedGame played_by(ThreadTeam& team, const ServeOptions& options) {
+  ServedGame played = served_game(options);
+  require_room(options, played.scene);
+  const Bodies& bodies = played.scene.bodies;
+  const auto objection = objection_to_threads(
+      team.count(), bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
+  if (objection) throw std::runtime_error("--threads: " + *objection);
+  played.scene.world.slabs = physics::SlabPlan{.workers = &team};
+  return played;
+}
+
 ExitStatus serve(ServeOptions& options) {
   if (!options.status.empty()) return show_status(options);
   const rti::FederationFile file = follow_federation_file(options);
   const std::string& federation = file.federation;
   const rti::Fom fom = load_rink_fom(file.fom);
-  const ServedGame played = served_game(options);
-  require_room(options, played.scene);
-
+  ThreadTeam team(options.threads);
+  const ServedGame played = played_by(team, options);
   rti::ensure_file_limit(options.clients + 64u);
   ServerProcess process(options, fom, played, federation);
   const std::uint16_t port = process.listen();

@@ -17,6 +17,7 @@
 #include "game/model/scene_file.h"
 #include "game/physics/overrun.h"
 #include "game/players/player_kinds.h"
+#include "game/process/thread_team.h"
 #include "game/version/version.h"
 
 namespace {
@@ -33,7 +34,7 @@ struct Options {
   std::vector<std::string> players;
   double until = 0.0;
   std::optional<std::uint64_t> seed, events_per_s;
-  std::optional<std::uint32_t> bats;
+  std::optional<std::uint32_t> bats, threads;
   physics::SimulatorChoice engine;
   bool has_integrator = false, has_dt = false;
 };
@@ -141,8 +142,18 @@ int status_after(const game::Game& game, const std::optional<physics::EventBudge
   return over_budget;
 }
 
+void require_room_for(const game::ThreadTeam& team, const game::Scene& scene) {
+  const game::Bodies& bodies = scene.bodies;
+  const auto objection = game::objection_to_threads(
+      team.count(), bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
+  if (objection) throw game::SceneError("--threads: " + *objection);
+}
+
 int simulate(const Options& options) {
-  const game::Scene scene = scene_of(options);
+  game::ThreadTeam team(options.threads.value_or(1));
+  game::Scene scene = scene_of(options);
+  require_room_for(team, scene);
+  scene.world.slabs = physics::SlabPlan{.workers = &team};
   Outputs outputs(options);
   std::optional<physics::EventBudget> budget;
   if (options.events_per_s) budget.emplace(*options.events_per_s);
@@ -171,6 +182,8 @@ void require_engine(const Options& options) {
   if (options.engine.engine != "exact" && options.events_per_s)
     throw game::SceneError(
         "--budget is for the exact engine: what the others cost is set by --dt, not by events");
+  if (options.engine.engine != "exact" && options.threads)
+    throw game::SceneError("--threads is for the exact engine: the others play by one thread");
   const double frames = options.until / options.engine.dt;
   if (options.engine.engine != "exact" && frames > frames_max)
     throw game::SceneError(
@@ -249,6 +262,11 @@ int main(int count, char** words) {
               "stop where more events than this come in a simulated second, and say which bodies "
               "have them and why (default: no limit)")
       .check(game::whole_number_from(1, budget_max));
+  flags
+      .option("--threads", options.threads,
+              "threads that play parts of a field of free pucks at once, with the same results "
+              "(docs/physics.md; default: 1)")
+      .check(game::whole_number_from(1, game::ThreadTeam::count_max));
   flags.option("--states", options.states,
                "write every entity's final state to this CSV file: kind,id,x,y,vx,vy");
   flags.option("--events", options.events,

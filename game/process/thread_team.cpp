@@ -1,6 +1,7 @@
 // One lock, taken when a task begins and when a thread has ended it.
 #include "game/process/thread_team.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace rink::game {
@@ -48,6 +49,12 @@ void ThreadTeam::work(std::uint32_t worker) {
     lock.lock();
     if (--busy_count_ == 0) ended_.notify_one();
   }
+}
+
+std::optional<std::string> objection_to_threads(std::uint32_t count, std::size_t body_count) {
+  if (count <= std::max<std::size_t>(1, body_count)) return std::nullopt;
+  return std::to_string(count) + " threads for " + std::to_string(body_count) +
+         " bodies: expected at most as many threads as bodies";
 }
 
 }  // namespace rink::game

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -15,6 +18,9 @@ namespace rink::game {
 /// these sleep. A team of one takes no lock.
 class ThreadTeam final : public physics::Workers {
  public:
+  /// More than machines have cores for; each thread costs a stack.
+  static constexpr std::uint32_t count_max = 256;
+
   explicit ThreadTeam(std::uint32_t count);
   ~ThreadTeam() override;
   ThreadTeam(const ThreadTeam&) = delete;
@@ -36,5 +42,9 @@ class ThreadTeam final : public physics::Workers {
   bool is_over_ = false;
   std::vector<std::thread> threads_;  // last, for they use the rest
 };
+
+/// Why a world of so many bodies cannot be played by so many threads, as the end of an error after
+/// the name of the flag; nothing if it can.
+std::optional<std::string> objection_to_threads(std::uint32_t count, std::size_t body_count);
 
 }  // namespace rink::game

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -210,6 +211,52 @@ TEST_F(SimulateCommand, RefusesABudgetOfNothingOrForEnginesThatStep) {
   }
   EXPECT_EQ(simulate("crowd --until 0 --engine paper --budget 5"), 2);
   EXPECT_THAT(said_, HasSubstr("--budget is for the exact engine"));
+}
+
+/// More pucks than are played in order, in a gas at packing .1.
+void write_gas(const std::string& file, const std::string& more = "") {
+  std::ofstream(file) << "[field]\nlength = 8.0\nwidth = 8.0\n"
+                      << more
+                      << "[[population]]\nname = \"gas\"\nkind = \"puck\"\ncount = 21000\n"
+                         "radius = 0.01\nmean_speed = 1.0\n";
+}
+
+/// What the summary says of the game; not how it was played.
+nlohmann::json played(const std::string& summary) {
+  nlohmann::json results = nlohmann::json::parse(summary);
+  for (const char* key : {"wall_s", "predictions", "evaluations", "stale_events", "crossings"})
+    results.erase(key);
+  return results;
+}
+
+TEST_F(SimulateCommand, PlaysTheSameGameWithAnyNumberOfThreads) {
+  write_gas(file("gas.toml"));
+  const std::string arguments =
+      file("gas.toml") + " --until 0.02 --events " + file("events.csv") + " --threads ";
+  ASSERT_EQ(simulate(arguments + "1"), 0) << said_;
+  const nlohmann::json alone = played(printed_);
+  const std::string events = content("events.csv");
+  EXPECT_GT(alone.at("collisions"), 1000);
+  for (const char* threads : {"2", "3"}) {
+    ASSERT_EQ(simulate(arguments + threads), 0) << said_;
+    EXPECT_EQ(played(printed_), alone) << threads;
+    EXPECT_TRUE(content("events.csv") == events) << threads;
+  }
+}
+
+TEST_F(SimulateCommand, RefusesNoThreadsAndMoreThanBodiesOrThanAnyMachineRuns) {
+  for (const char* threads : {"0", "-1", "x", "1.5", "257"}) {
+    EXPECT_EQ(simulate(std::string("crowd --until 0 --threads ") + threads), 2) << threads;
+    EXPECT_THAT(said_, HasSubstr("--threads")) << threads;
+    EXPECT_THAT(said_, HasSubstr("1 to 256")) << threads;
+  }
+  EXPECT_EQ(simulate("match --until 0 --threads 5"), 0) << said_;
+  EXPECT_EQ(simulate("match --until 0 --threads 6"), 2);
+  EXPECT_EQ(said_,
+            "rink simulate: --threads: 6 threads for 5 bodies: expected at most as many threads as "
+            "bodies\n");
+  EXPECT_EQ(simulate("crowd --until 0 --engine paper --threads 2"), 2);
+  EXPECT_THAT(said_, HasSubstr("--threads is for the exact engine"));
 }
 
 TEST(SceneDocumentation, ShowsASceneThatLoadsAndPlays) {

@@ -243,6 +243,32 @@ TEST(ServeCommand, ASecondCoreIsAnotherThreadThatChangesNoDecision) {
   EXPECT_GT(reports[0].at("scope_exits"), 0);
 }
 
+TEST(ServeCommand, PlaysTheSameGameWithAnotherThread) {
+  const test::TemporaryFolder folder("threads");
+  const std::filesystem::path scene = folder / "gas.toml", report = folder / "serve.json";
+  std::ofstream(scene) << "[field]\nlength = 8.0\nwidth = 8.0\n[[population]]\nname = \"gas\"\n"
+                          "kind = \"puck\"\ncount = 21000\nradius = 0.01\nmean_speed = 1.0\n";
+  std::vector<nlohmann::json> hashes;
+  for (const char* threads : {"1", "2"}) {
+    const Ended server = serve({"--scene", scene.string(), "--clients", "0", "--duration", "0.1",
+                                "--threads", threads, "--report", report.string()});
+    ASSERT_EQ(server.status, 0) << server.words;
+    hashes.push_back(nlohmann::json::parse(std::ifstream(report)).at("state_hash"));
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(ServeCommand, RefusesMoreThreadsThanBodies) {
+  for (const auto& [threads, objection] :
+       {std::pair("0", "1 to 256"), std::pair("257", "1 to 256"),
+        std::pair("6", "--threads: 6 threads for 5 bodies: expected at most as many threads as")}) {
+    const Ended server =
+        run("rink-serve", {"--scene", "match", "--port", "0", "--threads", threads});
+    EXPECT_NE(server.status, 0);
+    EXPECT_THAT(server.words, HasSubstr(objection));
+  }
+}
+
 TEST(ServeCommand, WaitsForExactlyTheNodesThatAFederationFileListsAndRefusesOthers) {
   const test::TemporaryFolder folder("listed");
   const std::string file = (folder / "listed.toml").string();

@@ -18,7 +18,8 @@ struct ServeOptions {
   std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's
   std::vector<std::string> members{};  ///< of the federation file's list, if it has one
   std::uint16_t port = 4711;
-  std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0;
+  std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0,
+                threads = 1;  ///< that play parts of the field at once
   std::uint64_t seed = 0;
   bool is_time_managed = false, has_second_core = false;
   double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0,
