@@ -23,6 +23,7 @@ struct SlabScene {
     const double packing = uniform(random, 0.03, 0.72),
                  spacing = std::sqrt(3.141592653589793 * 0.04 * 0.04 / packing);
     spec = rink_of(columns * spacing, columns * spacing);
+    spec.accounts_energy = seed % 3 == 0;
     if (random() % 8 == 0) spec.restitution = RestitutionTable(1, uniform(random, 0.5, 1.0));
     const bool is_uneven = random() % 2 == 0;
     const double jitter = std::max(0.0, 0.49 * (spacing - 0.0801));
@@ -67,6 +68,9 @@ inline void expect_same(const World& slabs, const World& plain) {
     EXPECT_EQ(a.*counter_of_kind[kind], b.*counter_of_kind[kind]) << event_kind_names[kind];
   EXPECT_EQ(a.joint_impacts, b.joint_impacts);
   EXPECT_EQ(a.bodies_touched, b.bodies_touched);
+  EXPECT_EQ(slabs.dissipated(), plain.dissipated());
+  EXPECT_EQ(slabs.work_of_thrust(), plain.work_of_thrust());
+  EXPECT_EQ(slabs.energy_introduced(), plain.energy_introduced());
   ASSERT_EQ(slabs.events().size(), plain.events().size());
   for (std::size_t k = 0; k < slabs.events().size(); ++k) {
     const Event &x = slabs.events()[k], &y = plain.events()[k];

@@ -34,6 +34,7 @@ class EnergyLedger {
   }
   void spend(const EnergyTransfer& transfer) {
     assert(is_kept_);
+    if (postponed_ != nullptr) return postponed_->push_back(transfer);
     work_.add(transfer.work);
     loss_.add(transfer.loss);
   }
@@ -46,9 +47,13 @@ class EnergyLedger {
   /// And after it: the event has taken the difference.
   void note_after(std::size_t number, Real energy) {
     assert(number < before_.size());
-    loss_.add(before_[number] - energy);
+    const Real taken = before_[number] - energy;
+    postponed_ != nullptr ? postponed_->push_back({0.0, taken}) : loss_.add(taken);
   }
   void close_event() { before_.clear(); }
+  /// From now on transfers are added to `list`, which must outlive that, and are spent later, in
+  /// the order of their events: a sum depends on it. Null: no longer.
+  void postpone(std::vector<EnergyTransfer>* list) { postponed_ = list; }
 
   Real introduced() const { return introduced_.value(); }
   /// Without what the laws of the bodies have cost since their last events.
@@ -65,6 +70,7 @@ class EnergyLedger {
   bool is_kept_;
   Sum introduced_, work_, loss_;
   std::vector<Real> before_;
+  std::vector<EnergyTransfer>* postponed_ = nullptr;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -48,6 +48,7 @@ class Engine {
     Clock& clock;
     Observers& observers;
     EventRecord& record;
+    EnergyLedger& ledger;
     Bodies& bodies;
     ImpactHistory& history;
     Jams& jams;
@@ -56,7 +57,8 @@ class Engine {
     NextEvents& events;
   };
   Parts parts() {
-    return {spec_, clock_, observers_, record_, bodies_, history_, jams_, places_, rests_, events_};
+    return {spec_,    clock_, observers_, record_, ledger_, bodies_,
+            history_, jams_,  places_,    rests_,  events_};
   }
   void predict_pending();
   /// The first event of all, that of `body`.

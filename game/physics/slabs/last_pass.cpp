@@ -44,8 +44,12 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   changed_.clear();
   time_ = order.time;
   parts_.observers.before = this;
+  parts_.ledger.postpone(&transfers_);
   engine_.process(body, order.time);
+  parts_.ledger.postpone(nullptr);
   parts_.observers.before = nullptr;
+  for (const EnergyTransfer& transfer : transfers_) tile_.book().push_back({order, transfer});
+  transfers_.clear();
   const Counters& after = parts_.record.counters();
   orders_.resize(parts_.record.events().size(), order);
   for (const std::uint32_t other : changed_) {

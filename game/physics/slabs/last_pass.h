@@ -51,6 +51,7 @@ class LastPass final : public ChangeObserver {
   bool solver_failed_ = false;
   std::uint64_t played_ = 0;
   std::vector<EventOrder> orders_;
+  std::vector<EnergyTransfer> transfers_;  // of the event at hand
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

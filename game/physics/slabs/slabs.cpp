@@ -29,7 +29,7 @@ constexpr double shorter = 0.8, longer = 1.01, least_share = 0.125;
 }  // namespace
 
 Slabs::Slabs(Engine& engine, const SlabPlan& plan)
-    : engine_(engine), parts_(engine.parts()), plan_(plan) {
+    : engine_(engine), parts_(engine.parts()), plan_(plan), books_(parts_.ledger) {
   assert(plan.tile_cells >= 4 && plan.block_radius >= 0 && plan.window > 0.0);
 }
 
@@ -96,7 +96,7 @@ bool Slabs::may_divide() const {
   return parts_.bodies.count() >= plan_.bodies_min && parts_.observers.before == nullptr &&
          parts_.observers.journal == nullptr && spec.queue != QueuePolicy::heap &&
          counts_touching() && spec.puck_drag == 0.0 && spec.puck_friction == 0.0 &&
-         !spec.surface_friction && !spec.accounts_energy && !spec.allow_overlap &&
+         !spec.surface_friction && !spec.allow_overlap &&
          !parts_.places.grid().wide().has(
              [&](std::uint32_t body) { return !parts_.bodies.is_fixed(body); });
 }
@@ -121,6 +121,7 @@ void Slabs::begin_window(Real end) {
   shared_.begin = parts_.clock.now, shared_.end = end;
   shared_.block_radius = plan_.block_radius;
   before_ = engine_.mark();
+  books_.begin_window();
   events_before_ = parts_.record.events().size();
   put_off_.clear();
   const bool is_kept = parts_.record.is_kept();
@@ -318,6 +319,7 @@ void Slabs::accept() {
   note_changes();
   add_counters();
   merge_events();
+  enter_books();
   parts_.clock.arrive(shared_.end);
 }
 
@@ -383,8 +385,15 @@ void Slabs::merge_events() {
   parts_.record.replace_from(events_before_, in_order(std::move(merged)));
 }
 
+void Slabs::enter_books() {
+  if (!books_.are_kept()) return;
+  for (Tile* tile : all_tiles_) books_.add(tile->book());
+  books_.enter();
+}
+
 /// Back to where the window began.
 void Slabs::undo() {
+  books_.undo();
   for (const BeforeImages::KeptState& kept : last_pass_->images().states()) {
     BodyState state = kept.state;
     state.flight = parts_.bodies[kept.body];

@@ -46,6 +46,9 @@
 // before is put back, and the window is played in order. Where only the check failed and all fly
 // straight, those look anew who had an event or were hit; else all do.
 //
+// Books. What an event takes from the energy waits in a list, and is added to the sums in the order
+// in which one loop would have, once the window is right.
+//
 // Differences from the plain loop: counters of bookkeeping, and the most events at one instant,
 // which is counted by tile.
 #pragma once
@@ -67,6 +70,7 @@
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"
 #include "game/physics/slab_plan.h"
+#include "game/physics/slabs/books.h"
 #include "game/physics/slabs/last_pass.h"
 #include "game/physics/slabs/tile.h"
 
@@ -124,12 +128,14 @@ class Slabs {
   void note_changes();
   void add_counters();
   void merge_events();
+  void enter_books();
   void undo();
   void look_anew();
 
   Engine& engine_;
   Engine::Parts parts_;
   SlabPlan plan_;
+  Books books_;
   SharedWindow shared_;
   std::vector<std::unique_ptr<Tile>> tiles_;  // one for each worker
   std::unique_ptr<LastPass> last_pass_;

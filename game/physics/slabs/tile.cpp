@@ -19,6 +19,7 @@ Tile::Tile(const Engine::Parts& engine, SharedWindow& shared, std::uint32_t numb
       events_(engine.events),
       restitution_(engine.spec.restitution),
       rest_speed_(rest_speed(engine.spec)),
+      keeps_books_(engine.spec.accounts_energy),
       prediction_(engine.spec, {clock_, engine.bodies, engine.places.grid(), engine.history,
                                 engine.rests, engine.events, record_.counters()}),
       courses_(number, count) {}
@@ -27,7 +28,7 @@ void Tile::begin_window() {
   courses_.begin(shared_.number);
   record_.counters() = {};
   record_.forget();
-  put_off_.clear(), awakened_.clear();
+  put_off_.clear(), awakened_.clear(), book_.clear();
   clock_ = latest_ = {};
   at_once_max_ = 0;
 }
@@ -257,12 +258,24 @@ bool Tile::collide(std::uint32_t body, std::uint32_t other, Real time) {
   courses_.replace(high, before_b, b.version - 1, time, shared_.latest[high]);
   courses_.note_speed(a), courses_.note_speed(b);
   record_.note(EventKind::puck_puck, time, low, high);
+  if (keeps_books_) enter({time, low, high}, before_a, before_b);
   record_.counters().evaluations += (before_a.time < time) + (before_b.time < time);
   record_.counters().bodies_touched += 2;
   clock_.count_event(time);
   at_once_max_ = std::max(at_once_max_, clock_.events_at_once);
   publish(low), publish(high);
   return true;
+}
+
+/// What an impact took from the two, in the order in which Bodies::close_books() enters it.
+void Tile::enter(const EventOrder& order, const Flight& before_low, const Flight& before_high) {
+  const auto enter_one = [&](std::uint32_t body, const Flight& before) {
+    const Real energy =
+        bodies_.build(body).mass * (0.5 * (before.vx * before.vx + before.vy * before.vy));
+    book_.push_back({order, {0.0, energy - energy_of(bodies_, body)}});
+  };
+  enter_one(order.lower, before_low);
+  enter_one(order.higher, before_high);
 }
 
 void Tile::publish(std::uint32_t body) {
