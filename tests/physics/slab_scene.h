@@ -25,6 +25,7 @@ struct SlabScene {
     spec = rink_of(columns * spacing, columns * spacing);
     spec.accounts_energy = seed % 3 == 0;
     if (random() % 8 == 0) spec.restitution = RestitutionTable(1, uniform(random, 0.5, 1.0));
+    else if (seed % 5 == 2) spec.restitution = RestitutionTable(1, uniform(random, 0.05, 1.0));
     const bool is_uneven = random() % 2 == 0;
     const double jitter = std::max(0.0, 0.49 * (spacing - 0.0801));
     const double fast = random() % 4 == 0 ? 20.0 : 2.0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <tuple>
 
 #include "game/physics/bodies/journal.h"
 #include "game/physics/bodies/tolerances.h"
@@ -57,6 +58,20 @@ void ImpactHistory::note_impact(std::uint32_t body, Real time) {
   }
   ++counts.impacts;
   if (observers_.journal != nullptr) observers_.journal->mix_digest(body, counts.impacts);
+}
+
+bool ImpactHistory::would_be_worn(std::uint32_t body, Real time) const {
+  assert(body < impact_counts_.size());
+  const ImpactCounts& counts = impact_counts_[body];
+  return !(time - counts.window_start > contact_time_) && counts.impacts + 1 >= impacts_max;
+}
+
+void ImpactHistory::take_back_impacts(std::uint32_t body, Real window_start,
+                                      std::uint32_t impacts) {
+  assert(body < impact_counts_.size());
+  ImpactCounts& counts = impact_counts_[body];
+  if (std::tie(window_start, impacts) < std::tie(counts.window_start, counts.impacts))
+    counts.window_start = window_start, counts.impacts = impacts;
 }
 
 bool ImpactHistory::is_pressed_hard(const Contact& c, Real approach, Real time) const {

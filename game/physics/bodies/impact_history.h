@@ -38,6 +38,12 @@ class ImpactHistory {
   void write(std::uint32_t body, const BodyState& state);
 
   void note_impact(std::uint32_t body, Real time);
+  /// Whether its impacts, with one more at `time`, would follow each other so closely that they are
+  /// one contact, at any speed.
+  bool would_be_worn(std::uint32_t body, Real time) const;
+  /// Back to an earlier count of its impacts; nothing if it is not earlier. Of several counts the
+  /// first remains, in whatever order they are given.
+  void take_back_impacts(std::uint32_t body, Real window_start, std::uint32_t impacts);
   /// Whether impacts of one of the two follow each other so closely that they are one contact.
   bool is_pressed_hard(const Contact& contact, Real approach, Real time) const;
 

@@ -43,7 +43,7 @@ bool FreeImpact::collide(std::uint32_t body, Partner p, Real time, bool is_crowd
   const bool is_counting = is_watched && bodies_.curved_count() == 0 && counts_touching();
   if (is_watched && !is_counting && detection_.has_company(body, p, time)) return false;
   const Flight before_a = a, before_b = b;
-  const auto square = bounce_freely(bodies_, low, high, time, rest_speed_);
+  const auto square = bounce_freely(bodies_, low, high, time, {rest_speed_});
   if (!square) return false;
   const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
   if (is_counting && !(*square <= touching * touching && predict_alone(low, high))) {

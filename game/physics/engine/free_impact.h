@@ -20,12 +20,18 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-/// Restarts the flights of both after an elastic impact, and returns the square of the distance of
-/// their centres [m^2]. Nothing, and nothing done, if they are in line with an axis, where they
-/// might come to rest on each other, or hardly approach.
+/// What an impact of two pucks depends on beside their flights.
+struct BounceLaw {
+  Real rest_speed;        ///< slower ones may come to rest on each other [m/s]
+  Real given_back = 1.0;  ///< restitution
+};
+
+/// Restarts the flights of both after an impact, and returns the square of the distance of their
+/// centres [m^2]. Nothing, and nothing done, if they are in line with an axis, where they might
+/// come to rest on each other, or hardly approach or part.
 [[gnu::always_inline]] inline std::optional<Real> bounce_freely(Bodies& bodies, std::uint32_t low,
                                                                 std::uint32_t high, Real time,
-                                                                Real rest_speed) {
+                                                                const BounceLaw& law) {
   const Body &a = bodies[low], &b = bodies[high];
   const Real elapsed_a = a.time < time ? time - a.time : 0.0,
              elapsed_b = b.time < time ? time - b.time : 0.0;
@@ -36,9 +42,11 @@ namespace rink::physics::inline RINK_PRECISION {
   const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy),
              length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
   const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
-  if (!(approach >= 1.01 * std::max<Real>(rest_speed, separation_min * speed_max) * length_max))
+  const Real parting = law.given_back * approach;
+  if (!(approach >= 1.01 * law.rest_speed * length_max &&
+        parting >= 1.01 * (separation_min * speed_max) * length_max))
     return std::nullopt;
-  const Real impulse = (approach + approach) / ((a.inverse_mass + b.inverse_mass) * square);
+  const Real impulse = (approach + parting) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   bodies.restart(low, {ax, ay}, {a.vx + kick_a * x, a.vy + kick_a * y}, std::max(a.time, time));
   bodies.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));

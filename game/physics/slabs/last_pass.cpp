@@ -48,7 +48,8 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   engine_.process(body, order.time);
   parts_.ledger.postpone(nullptr);
   parts_.observers.before = nullptr;
-  for (const EnergyTransfer& transfer : transfers_) tile_.book().push_back({order, transfer});
+  for (const EnergyTransfer& transfer : transfers_)
+    tile_.impact().book().push_back({order, transfer});
   transfers_.clear();
   const Counters& after = parts_.record.counters();
   orders_.resize(parts_.record.events().size(), order);

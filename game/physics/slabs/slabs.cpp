@@ -387,7 +387,7 @@ void Slabs::merge_events() {
 
 void Slabs::enter_books() {
   if (!books_.are_kept()) return;
-  for (Tile* tile : all_tiles_) books_.add(tile->book());
+  for (Tile* tile : all_tiles_) books_.add(tile->impact().book());
   books_.enter();
 }
 
@@ -401,6 +401,7 @@ void Slabs::undo() {
     parts_.history.write(kept.body, state);
     parts_.jams.write(kept.body, state);
   }
+  for (Tile* tile : all_tiles_) tile->impact().undo();
   for (Tile* tile : all_tiles_)
     for (const Courses::Replaced& r : tile->courses().replaced())
       if (r.earlier == Courses::none) parts_.bodies.take_back(r.body, r.flight, r.version);

@@ -18,13 +18,14 @@
 //
 // Tiles. They play a window alone, one after the other. They put off what touches a cell at their
 // edge or a blocked cell, and all but crossings, stale events and simple impacts: of two pucks in
-// free flight that give back all, with no third body within 1e-6 m, none on a curve in sight, and
-// no other impact of theirs within 1e-9 s. So whether an impact is alone at its instant, which the
-// plain loop asks its whole queue, does not matter to what a tile plays; chains of bodies that
-// touch, bats and goals are left to the last pass. Putting off blocks the cells of the event's
-// bodies for all, so that a body's events keep their order, and those within the block radius for
-// impacts, which replace courses. Tiles shifted by half their size along both axes, then along one
-// and along the other, play what was put off; the last pass knows no tiles and all kinds of events.
+// free flight, neither slow nor following each other closely, with no third body within 1e-6 m,
+// none on a curve in sight, and no other impact of theirs within 1e-9 s. So whether an impact is
+// alone at its instant, which the plain loop asks its whole queue, does not matter to what a tile
+// plays; chains of bodies that touch, bats and goals are left to the last pass. Putting off blocks
+// the cells of the event's bodies for all, so that a body's events keep their order, and those
+// within the block radius for impacts, which replace courses. Tiles shifted by half their size
+// along both axes, then along one and along the other, play what was put off; the last pass knows
+// no tiles and all kinds of events.
 //
 // Threads. Tiles of one pass have no cell in common, and a body's record, next event and place are
 // written by the tile in whose cells it is; none comes to another tile, for crossings at edges are

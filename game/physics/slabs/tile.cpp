@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "game/physics/bodies/tolerances.h"
-#include "game/physics/engine/free_impact.h"
 #include "game/physics/prefetch.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -17,18 +16,17 @@ Tile::Tile(const Engine::Parts& engine, SharedWindow& shared, std::uint32_t numb
       bodies_(engine.bodies),
       places_(engine.places),
       events_(engine.events),
-      restitution_(engine.spec.restitution),
-      rest_speed_(rest_speed(engine.spec)),
-      keeps_books_(engine.spec.accounts_energy),
       prediction_(engine.spec, {clock_, engine.bodies, engine.places.grid(), engine.history,
                                 engine.rests, engine.events, record_.counters()}),
-      courses_(number, count) {}
+      courses_(number, count),
+      impact_(engine) {}
 
 void Tile::begin_window() {
   courses_.begin(shared_.number);
   record_.counters() = {};
   record_.forget();
-  put_off_.clear(), awakened_.clear(), book_.clear();
+  put_off_.clear(), awakened_.clear();
+  impact_.begin_window();
   clock_ = latest_ = {};
   at_once_max_ = 0;
 }
@@ -231,51 +229,34 @@ bool Tile::put_back(std::uint32_t body, Real time) {
   return true;
 }
 
-/// As FreeImpact, where a third one touches neither.
+/// Where a third one touches neither.
 bool Tile::collide(std::uint32_t body, std::uint32_t other, Real time) {
   const std::uint32_t low = std::min(body, other), high = std::max(body, other);
   const Body &a = bodies_[low], &b = bodies_[high];
   if (can_be_late_ && !put_back(other, time)) return false;
-  if (events_[low].is_tied || events_[high].is_tied || (a.flags | b.flags) != 0 ||
-      a.kind != BodyKind::puck || b.kind != BodyKind::puck ||
-      restitution_(a.material, b.material) != 1.0)
+  if (events_[low].is_tied || events_[high].is_tied || !impact_.bounce(low, high, time))
     return false;
-  const Flight before_a = a, before_b = b;
   const NextEvent slot_a = events_[low], slot_b = events_[high];
-  const auto square = bounce_freely(bodies_, low, high, time, rest_speed_);
-  if (!square) return false;
-  const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
   const std::uint64_t predictions = record_.counters().predictions;
-  if (!(*square <= touching * touching && prediction_.predict_counting(low) == 2 &&
+  if (!(impact_.was_near() && prediction_.predict_counting(low) == 2 &&
         prediction_.predict_counting(high) == 2)) {
-    bodies_.take_back(low, before_a, a.version - 1);
-    bodies_.take_back(high, before_b, b.version - 1);
+    impact_.take_back();
     events_.slot(low) = slot_a, events_.slot(high) = slot_b;
     record_.counters().predictions = predictions;
     return false;
   }
+  impact_.settle(time);
+  const Flight &before_a = impact_.low_before(), &before_b = impact_.high_before();
   courses_.replace(low, before_a, a.version - 1, time, shared_.latest[low]);
   courses_.replace(high, before_b, b.version - 1, time, shared_.latest[high]);
   courses_.note_speed(a), courses_.note_speed(b);
   record_.note(EventKind::puck_puck, time, low, high);
-  if (keeps_books_) enter({time, low, high}, before_a, before_b);
   record_.counters().evaluations += (before_a.time < time) + (before_b.time < time);
   record_.counters().bodies_touched += 2;
   clock_.count_event(time);
   at_once_max_ = std::max(at_once_max_, clock_.events_at_once);
   publish(low), publish(high);
   return true;
-}
-
-/// What an impact took from the two, in the order in which Bodies::close_books() enters it.
-void Tile::enter(const EventOrder& order, const Flight& before_low, const Flight& before_high) {
-  const auto enter_one = [&](std::uint32_t body, const Flight& before) {
-    const Real energy =
-        bodies_.build(body).mass * (0.5 * (before.vx * before.vx + before.vy * before.vy));
-    book_.push_back({order, {0.0, energy - energy_of(bodies_, body)}});
-  };
-  enter_one(order.lower, before_low);
-  enter_one(order.higher, before_high);
 }
 
 void Tile::publish(std::uint32_t body) {

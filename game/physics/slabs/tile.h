@@ -14,8 +14,8 @@
 #include "game/physics/events/window_queue.h"
 #include "game/physics/grid/cell_grid.h"
 #include "game/physics/real.h"
-#include "game/physics/slabs/books.h"
 #include "game/physics/slabs/courses.h"
+#include "game/physics/slabs/pair_impact.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -80,8 +80,8 @@ class Tile {
   /// At the latest event since then.
   const Clock& clock() const { return is_later(clock_, latest_) ? clock_ : latest_; }
   EventRecord& record() { return record_; }
-  /// What its events took from the energy; of the last pass, what the engine's took as well.
-  std::vector<BookEntry>& book() { return book_; }
+  /// With its books, where the last pass adds what the engine's events took.
+  PairImpact& impact() { return impact_; }
   std::uint64_t at_once_max() const { return at_once_max_; }
 
  private:
@@ -105,7 +105,6 @@ class Tile {
   bool play_event(const Encounter& encounter);
   bool cross(std::uint32_t body);
   bool collide(std::uint32_t body, std::uint32_t other, Real time);
-  void enter(const EventOrder& order, const Flight& before_low, const Flight& before_high);
   void publish(std::uint32_t body);
   Blocked blocked(const Place& place) const;
   bool is_impact(const Encounter& encounter) const;
@@ -119,20 +118,17 @@ class Tile {
   Bodies& bodies_;
   Places& places_;
   NextEvents& events_;
-  const RestitutionTable& restitution_;
-  Real rest_speed_;
-  bool keeps_books_;
   Clock clock_, latest_;  // of this tile, and of the one that came furthest before
   EventRecord record_;
   std::uint64_t at_once_max_ = 0;
   Prediction prediction_;
   Courses courses_;
+  PairImpact impact_;
   EventBins bins_;
   CellRange range_{};
   bool can_be_late_ = false, is_whole_ = false;
   std::vector<Blocked> blocked_;  // by cell of the range
   std::vector<std::uint32_t> put_off_, awakened_, near_;
-  std::vector<BookEntry> book_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION
