@@ -16,7 +16,8 @@
 namespace rink::physics::test {
 
 /// Pucks on a lattice at some packing, jittered, of different masses; now and then with posts, or
-/// with walls or pucks that lose energy.
+/// with walls or pucks that lose
+/// energy, with drag, and with books of energy.
 struct SlabScene {
   explicit SlabScene(std::uint64_t seed) : random(seed) {
     const int columns = 8 + static_cast<int>(random() % 28);
@@ -26,6 +27,7 @@ struct SlabScene {
     spec.accounts_energy = seed % 3 == 0;
     if (random() % 8 == 0) spec.restitution = RestitutionTable(1, uniform(random, 0.5, 1.0));
     else if (seed % 5 == 2) spec.restitution = RestitutionTable(1, uniform(random, 0.05, 1.0));
+    if (seed % 7 == 3) spec.puck_drag = uniform(random, 0.05, 2.0);
     const bool is_uneven = random() % 2 == 0;
     const double jitter = std::max(0.0, 0.49 * (spacing - 0.0801));
     const double fast = random() % 4 == 0 ? 20.0 : 2.0;

@@ -98,6 +98,7 @@ TEST(SlabsLong, HaveTheBitsOfThePlainLoopWithBatsAndGoalsInManyScenes) {
 
 TEST(Slabs, LeaveWorldsOfOtherKindsToThePlainLoop) {
   WorldSpec spec = rink_of(4.0, 2.0, 0.8, 0.2, 1.0);
+  spec.puck_friction = 0.1;
   const WorldSpec plain_spec = spec;
   spec.queue = QueuePolicy::windows, spec.slabs = small_tiles(4, 2, 1.0);
   World slabs(spec), plain(plain_spec);

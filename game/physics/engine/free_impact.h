@@ -16,6 +16,7 @@
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/next_events.h"
 #include "game/physics/engine/prediction.h"
+#include "game/physics/flight/motion.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -24,6 +25,7 @@ namespace rink::physics::inline RINK_PRECISION {
 struct BounceLaw {
   Real rest_speed;        ///< slower ones may come to rest on each other [m/s]
   Real given_back = 1.0;  ///< restitution
+  Real drag = 0.0;        ///< linear, of both [1/s]
 };
 
 /// Restarts the flights of both after an impact, and returns the square of the distance of their
@@ -35,21 +37,24 @@ struct BounceLaw {
   const Body &a = bodies[low], &b = bodies[high];
   const Real elapsed_a = a.time < time ? time - a.time : 0.0,
              elapsed_b = b.time < time ? time - b.time : 0.0;
-  const Real ax = a.x + a.vx * elapsed_a, ay = a.y + a.vy * elapsed_a, bx = b.x + b.vx * elapsed_b,
-             by = b.y + b.vy * elapsed_b;
+  const WarpedTime warped_a = warp_unaccelerated(elapsed_a, law.drag),
+                   warped_b = warp_unaccelerated(elapsed_b, law.drag);
+  const Real ax = a.x + a.vx * warped_a.s, ay = a.y + a.vy * warped_a.s,
+             bx = b.x + b.vx * warped_b.s, by = b.y + b.vy * warped_b.s, avx = a.vx * warped_a.e,
+             avy = a.vy * warped_a.e, bvx = b.vx * warped_b.e, bvy = b.vy * warped_b.e;
   const Real x = ax - bx, y = ay - by;
   if (x == 0.0 || y == 0.0) return std::nullopt;
-  const Real approach = x * (b.vx - a.vx) + y * (b.vy - a.vy),
-             length_max = std::abs(x) + std::abs(y), square = x * x + y * y;
-  const Real speed_max = std::abs(a.vx) + std::abs(a.vy) + std::abs(b.vx) + std::abs(b.vy);
+  const Real approach = x * (bvx - avx) + y * (bvy - avy), length_max = std::abs(x) + std::abs(y),
+             square = x * x + y * y;
+  const Real speed_max = std::abs(avx) + std::abs(avy) + std::abs(bvx) + std::abs(bvy);
   const Real parting = law.given_back * approach;
   if (!(approach >= 1.01 * law.rest_speed * length_max &&
         parting >= 1.01 * (separation_min * speed_max) * length_max))
     return std::nullopt;
   const Real impulse = (approach + parting) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
-  bodies.restart(low, {ax, ay}, {a.vx + kick_a * x, a.vy + kick_a * y}, std::max(a.time, time));
-  bodies.restart(high, {bx, by}, {b.vx - kick_b * x, b.vy - kick_b * y}, std::max(b.time, time));
+  bodies.restart(low, {ax, ay}, {avx + kick_a * x, avy + kick_a * y}, std::max(a.time, time));
+  bodies.restart(high, {bx, by}, {bvx - kick_b * x, bvy - kick_b * y}, std::max(b.time, time));
   return square;
 }
 

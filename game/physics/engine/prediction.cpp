@@ -70,6 +70,7 @@ std::uint32_t Prediction::predict_counting(std::uint32_t body) {
   const std::uint32_t count = begin(body);
   if (bodies_.curved_count() > 0 && sees_curves(count)) return 0;
   counters_.predictions += count;
+  if (puck_drag_ > 0.0) return predict_dragged_counting(body, count);
   return predict_straight_pairs<true>(body, candidates_.data(), count);
 }
 
@@ -241,31 +242,32 @@ std::uint32_t Prediction::predict_straight_pairs(std::uint32_t body, std::uint32
   return touching;
 }
 
-/// Both positions are taken at the later of the two last events, so that the result depends on
-/// nothing but the two states.
 void Prediction::predict_pair(std::uint32_t body, std::uint32_t other) {
   const Body &a = bodies_[body], &b = bodies_[other];
   if (((a.flags | b.flags) & Body::curved) != 0) return predict_curved_pair(body, other);
-  RealVector offset(b.x - a.x, b.y - a.y), velocity;
-  const Real time = std::max(a.time, b.time);
-  if (puck_drag_ == 0.0) {
-    const Real ahead_a = time - a.time, ahead_b = time - b.time;
-    offset += RealVector(b.vx * ahead_b - a.vx * ahead_a, b.vy * ahead_b - a.vy * ahead_a);
-    velocity = RealVector(b.vx - a.vx, b.vy - a.vy);
-  } else {
-    const auto warped_since = [&](const Body& c) {
-      return c.time == time ? WarpedTime{0.0, 0.0, 1.0}
-                            : warp_unaccelerated(time - c.time, puck_drag_);
-    };
-    const WarpedTime wa = warped_since(a), wb = warped_since(b);
-    offset += RealVector(b.vx * wb.s - a.vx * wa.s, b.vy * wb.s - a.vy * wa.s);
-    velocity = RealVector(b.vx * wb.e - a.vx * wa.e, b.vy * wb.e - a.vy * wa.e);
+  offer_dragged(body, other, sighting_of(a, b, puck_drag_));
+}
+
+/// The best event so far limits it; the slack keeps those that come within the same instant.
+void Prediction::offer_dragged(std::uint32_t body, std::uint32_t other, const Sighting& sighting) {
+  const Real latest = events_[body].impact_time * (1.0 + 4e-15 * fineness) + Real(instant);
+  const auto time = dragged_contact_time(sighting, bodies_[body].radius + bodies_[other].radius,
+                                         latest, puck_drag_);
+  if (time) offer(body, *time, other);
+}
+
+/// The first `count` of the candidates, none on a curve; returns how many touch it.
+std::uint32_t Prediction::predict_dragged_counting(std::uint32_t body, std::uint32_t count) {
+  std::uint32_t touching = 1;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t other = candidates_[k];
+    if (other == body) continue;
+    const Sighting sighting = sighting_of(bodies_[body], bodies_[other], puck_drag_);
+    const Real near = bodies_[body].radius + bodies_[other].radius + Real(clear_of_touching);
+    touching += sighting.offset.squaredNorm() <= near * near;
+    offer_dragged(body, other, sighting);
   }
-  // Warped time never runs ahead of real time, so the best event so far limits it as well; the
-  // slack keeps those that come within the same instant.
-  const Real limit = events_[body].impact_time * (1.0 + 4e-15 * fineness) + Real(instant) - time;
-  if (const auto wait = time_to_touch(offset, velocity, a.radius + b.radius, limit))
-    offer(body, real_time(time, *wait), other);
+  return touching;
 }
 
 /// What comes after the next crossing of a body on a curve is looked for then, when it looks at

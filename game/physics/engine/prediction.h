@@ -12,7 +12,7 @@
 #include "game/physics/counters.h"
 #include "game/physics/engine/next_events.h"
 #include "game/physics/engine/rest_contacts.h"
-#include "game/physics/flight/exponential.h"
+#include "game/physics/flight/dragged_flight.h"
 #include "game/physics/grid/cell_grid.h"
 #include "game/physics/real.h"
 
@@ -69,17 +69,16 @@ class Prediction {
   std::uint32_t predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
                                        std::uint32_t count);
   void predict_pair(std::uint32_t body, std::uint32_t other);
+  void offer_dragged(std::uint32_t body, std::uint32_t other, const Sighting& sighting);
+  std::uint32_t predict_dragged_counting(std::uint32_t body, std::uint32_t count);
   Real limit_of_curved(std::uint32_t body, std::uint32_t other) const;
   bool may_meet(std::uint32_t one, std::uint32_t other, Real limit) const;
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_crossing(std::uint32_t body);
   void offer(std::uint32_t body, Real time, Partner partner);
-  /// The instant at which the pucks' warped clock has advanced by `warped` since `start`; infinite
-  /// if it never does.
+  /// On the pucks' warped clock.
   Real real_time(Real start, Real warped) const {
-    if (puck_drag_ == 0.0) return start + warped;
-    const Real lost = puck_drag_ * warped;
-    return lost < 1.0 ? start - log1p_of(-lost) / puck_drag_ : infinity;
+    return time_on_warped_clock(start, warped, puck_drag_);
   }
   bool is_open(Real y) const;
 

@@ -5,6 +5,7 @@
 
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/free_impact.h"
+#include "game/physics/flight/motion.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -13,6 +14,7 @@ PairImpact::PairImpact(const Engine::Parts& engine)
       history_(engine.history),
       restitution_(engine.spec.restitution),
       rest_speed_(rest_speed(engine.spec)),
+      puck_drag_(engine.spec.puck_drag),
       keeps_books_(engine.spec.accounts_energy) {}
 
 void PairImpact::begin_window() {
@@ -31,7 +33,8 @@ bool PairImpact::bounce(std::uint32_t low, std::uint32_t high, Real time) {
       (history_.would_be_worn(low, time) || history_.would_be_worn(high, time)))
     return false;
   low_before_ = a, high_before_ = b;
-  const auto square = bounce_freely(bodies_, low, high, time, {rest_speed_, given_back_});
+  const auto square =
+      bounce_freely(bodies_, low, high, time, {rest_speed_, given_back_, puck_drag_});
   if (!square) return false;
   const Real touching = a.radius + b.radius + Real(0.5 * clear_of_touching);
   was_near_ = *square <= touching * touching;
@@ -47,6 +50,8 @@ void PairImpact::settle(Real time) {
   if (given_back_ < 1.0) count(low_, time), count(high_, time);
   if (!keeps_books_) return;
   const EventOrder order{time, low_, high_};
+  if (puck_drag_ > 0.0)
+    enter_drag(low_, low_before_, order), enter_drag(high_, high_before_, order);
   enter(low_, low_before_, order), enter(high_, high_before_, order);
 }
 
@@ -57,10 +62,22 @@ void PairImpact::count(std::uint32_t body, Real time) {
   history_.note_impact(body, time);
 }
 
+/// As Bodies::rebase() does: what drag has taken since the last event.
+void PairImpact::enter_drag(std::uint32_t body, const Flight& before, const EventOrder& order) {
+  if (!(before.time < order.time)) return;
+  Motion motion = bodies_.motion(body);
+  motion.time = before.time;
+  motion.position = {before.x, before.y}, motion.velocity = {before.vx, before.vy};
+  book_.push_back(
+      {order, energy_transfer_of(motion, order.time, bodies_.build(body).mass, nullptr)});
+}
+
 /// As Bodies::close_books() does.
 void PairImpact::enter(std::uint32_t body, const Flight& before, const EventOrder& order) {
-  const Real energy =
-      bodies_.build(body).mass * (0.5 * (before.vx * before.vx + before.vy * before.vy));
+  const Real elapsed = before.time < order.time ? order.time - before.time : Real(0.0),
+             slowed = warp_unaccelerated(elapsed, puck_drag_).e, vx = before.vx * slowed,
+             vy = before.vy * slowed;
+  const Real energy = bodies_.build(body).mass * (0.5 * (vx * vx + vy * vy));
   book_.push_back({order, {0.0, energy - energy_of(bodies_, body)}});
 }
 

@@ -50,12 +50,13 @@ class PairImpact {
   };
 
   void count(std::uint32_t body, Real time);
+  void enter_drag(std::uint32_t body, const Flight& before, const EventOrder& order);
   void enter(std::uint32_t body, const Flight& before, const EventOrder& order);
 
   Bodies& bodies_;
   ImpactHistory& history_;
   const RestitutionTable& restitution_;
-  Real rest_speed_;
+  Real rest_speed_, puck_drag_;
   bool keeps_books_;
   std::uint32_t low_ = 0, high_ = 0;
   Real given_back_ = 1.0;

@@ -11,6 +11,7 @@
 #include "game/physics/bodies/jams.h"
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/rest_contacts.h"
+#include "game/physics/flight/dragged_flight.h"
 #include "game/physics/flight/impact_time.h"
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/slabs/event_merge.h"
@@ -90,15 +91,15 @@ void Slabs::be_patient(bool was_good) {
   in_order_ = in_order_last_ / 2;
 }
 
-/// Whether pucks are in straight flight unless something presses them, and impacts may be simple.
+/// Whether pucks fly straight unless something presses them, and impacts may be simple.
 bool Slabs::may_divide() const {
   const WorldSpec& spec = parts_.spec;
   return parts_.bodies.count() >= plan_.bodies_min && parts_.observers.before == nullptr &&
          parts_.observers.journal == nullptr && spec.queue != QueuePolicy::heap &&
-         counts_touching() && spec.puck_drag == 0.0 && spec.puck_friction == 0.0 &&
-         !spec.surface_friction && !spec.allow_overlap &&
-         !parts_.places.grid().wide().has(
-             [&](std::uint32_t body) { return !parts_.bodies.is_fixed(body); });
+         counts_touching() && spec.puck_friction == 0.0 && !spec.surface_friction &&
+         !spec.allow_overlap && !parts_.places.grid().wide().has([&](std::uint32_t body) {
+           return !parts_.bodies.is_fixed(body);
+         });
 }
 
 void Slabs::begin_window(Real end) {
@@ -277,7 +278,10 @@ bool Slabs::meets_by(const Courses::Late& late, const Course& other, Real end) c
   const Bodies& bodies = parts_.bodies;
   std::optional<Real> time;
   if (!bodies[late.body].is(Body::curved) && !bodies[other.body].is(Body::curved)) {
-    time = disc_contact_time(late.flight, other.flight, end);
+    const Real drag = parts_.spec.puck_drag, reach = late.flight.radius + other.flight.radius;
+    time = drag == 0.0 ? disc_contact_time(late.flight, other.flight, end)
+                       : dragged_contact_time(sighting_of(late.flight, other.flight, drag), reach,
+                                              end, drag);
   } else {
     const Course own{late.body, late.flight};
     const bool is_low = own.body < other.body;

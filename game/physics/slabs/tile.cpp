@@ -5,7 +5,7 @@
 #include <cassert>
 #include <optional>
 
-#include "game/physics/bodies/tolerances.h"
+#include "game/physics/flight/motion.h"
 #include "game/physics/prefetch.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -212,8 +212,9 @@ bool Tile::put_back(std::uint32_t body, Real time) {
   const Body& b = bodies_[body];
   const CellGrid& grid = places_.grid();
   if (b.is(Body::curved) || !grid.is_listed(body)) return true;
-  const Real elapsed = std::max<Real>(0.0, time - b.time), x = b.x + b.vx * elapsed,
-             y = b.y + b.vy * elapsed, slack = Real(1e-9 * grid.side());
+  const Real elapsed = std::max<Real>(0.0, time - b.time),
+             warped = warp_unaccelerated(elapsed, bodies_.own_drag(body)).s,
+             x = b.x + b.vx * warped, y = b.y + b.vy * warped, slack = Real(1e-9 * grid.side());
   const auto direction = [&](const Place& place) -> std::optional<CellGrid::Direction> {
     if (x < grid.column_edge(place.column, false) - slack) return CellGrid::left;
     if (x > grid.column_edge(place.column, true) + slack) return CellGrid::right;
