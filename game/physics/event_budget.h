@@ -44,6 +44,17 @@ class EventBudget {
     else recent_[charged_ % recent_max] = event;
     ++charged_;
   }
+  /// Whether `events` that all come up to `until`, not before the last one charged, are events of
+  /// the present second and not too many.
+  bool has_room(Real until, std::uint64_t events) const {
+    return !recent_.empty() && until < begin_ + 1.0 && !is_exceeded() &&
+           events <= events_per_s_ - spent_;
+  }
+  /// Such events; who took them is not known (asserted).
+  void charge_unseen([[maybe_unused]] Real until, std::uint64_t events) {
+    assert(has_room(until, events));
+    spent_ += events;
+  }
   /// Since the present second began, or as grant() has set it.
   std::uint64_t spent() const { return spent_; }
   /// More has happened in one second than may.

@@ -54,7 +54,7 @@ class World final : public Simulator {
   std::optional<Goal> advance(Real until) override;
   /// As advance(until), but also ends after the event with which `budget` is exceeded, which it
   /// must not have been before (asserted). Whatever is left of that instant comes when it goes on.
-  /// Tiles are not used.
+  /// Of events that tiles played the budget knows the number alone.
   std::optional<Goal> advance(Real until, EventBudget& budget);
 
   /// From now on keeps a record of every event, for observers; off at first. Never changes the

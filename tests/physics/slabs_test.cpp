@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "game/physics/event_budget.h"
 #include "game/physics/world.h"
 #include "tests/physics/scenes.h"
 #include "tests/physics/slab_scene.h"
@@ -94,6 +95,30 @@ void play_many_with_bats(std::uint64_t first, std::uint64_t last) {
 TEST(Slabs, HaveTheBitsOfThePlainLoopWithBatsAndGoals) { play_many_with_bats(1, 30); }
 TEST(SlabsLong, HaveTheBitsOfThePlainLoopWithBatsAndGoalsInManyScenes) {
   play_many_with_bats(1000, 1300);
+}
+
+TEST(Slabs, SpendABudgetAsThePlainLoopDoes) {
+  constexpr std::uint64_t events_per_s = 2000;
+  std::uint64_t windows = 0, stops = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const SlabScene scene(seed);
+    World plain = scene.world(QueuePolicy::calendar),
+          slabs = scene.world(QueuePolicy::windows, small_tiles(6, 1, 1.0));
+    EventBudget of_plain(events_per_s), of_slabs(events_per_s);
+    while (plain.now() < scene.duration) {
+      plain.advance(scene.duration, of_plain), slabs.advance(scene.duration, of_slabs);
+      ASSERT_EQ(slabs.now(), plain.now());
+      ASSERT_EQ(of_slabs.spent(), of_plain.spent());
+      expect_same(slabs, plain);
+      if (testing::Test::HasFatalFailure()) return;
+      if (!of_plain.is_exceeded()) continue;
+      of_plain.grant(1500), of_slabs.grant(1500), ++stops;
+    }
+    windows += slabs.counters().slabs.windows;
+  }
+  EXPECT_GT(windows, 20u);
+  EXPECT_GT(stops, 0u);
 }
 
 TEST(Slabs, LeaveWorldsOfOtherKindsToThePlainLoop) {

@@ -34,7 +34,8 @@ Slabs::Slabs(Engine& engine, const SlabPlan& plan)
   assert(plan.tile_cells >= 4 && plan.block_radius >= 0 && plan.window > 0.0);
 }
 
-std::optional<Goal> Slabs::advance(Real until) {
+std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
+  budget_ = budget;
   if (may_divide() && parts_.events.windows() == nullptr) {
     parts_.events.keep_by(QueuePolicy::windows);
     engine_.rebuild_from_state();
@@ -43,11 +44,30 @@ std::optional<Goal> Slabs::advance(Real until) {
     engine_.predict_pending();
     const Real end = next_end(until);
     if (!is_worth_dividing(end)) break;
-    if (in_order_ == 0 && play_window(end)) continue;
+    // There are hardly more events in a window than bodies that wait for one.
+    const bool is_free = has_room(end, parts_.events.windows()->listed().size());
+    if (in_order_ == 0 && is_free && play_window(end)) continue;
     if (in_order_ > 0) --in_order_;
-    if (auto goal = engine_.advance(end)) return goal;
+    if (auto goal = play_in_order(end)) return goal;
+    if (budget != nullptr && budget->is_exceeded()) return std::nullopt;
   }
-  return engine_.advance(until);
+  return play_in_order(until);
+}
+
+std::optional<Goal> Slabs::play_in_order(Real until) {
+  return budget_ != nullptr ? engine_.advance(until, *budget_) : engine_.advance(until);
+}
+
+/// Whether the budget, if there is one, has room for so many until `end`.
+bool Slabs::has_room(Real end, std::uint64_t events) const {
+  return budget_ == nullptr || budget_->has_room(end, events);
+}
+
+/// That a budget charges, in the window at hand.
+std::uint64_t Slabs::events_played() const {
+  std::uint64_t events = parts_.record.counters().recordable() - before_.counters.recordable();
+  for (const Tile* tile : all_tiles_) events += tile->record().counters().recordable();
+  return events;
 }
 
 Real Slabs::next_end(Real until) const {
@@ -67,7 +87,7 @@ bool Slabs::is_worth_dividing(Real end) const {
 bool Slabs::play_window(Real end) {
   begin_window(end);
   play_passes();
-  const bool was_right = is_right();
+  const bool was_right = is_right() && has_room(end, events_played());
   be_patient(was_right && was_worth_it());
   share_ = was_right ? std::min(1.0, share_ * longer) : std::max(least_share, share_ * shorter);
   was_right ? accept() : undo();
@@ -319,6 +339,7 @@ Real Slabs::end_of(const Courses::Late& late) const {
 
 void Slabs::accept() {
   for (Tile* tile : all_tiles_) slab_counters().late += tile->courses().late().size();
+  if (budget_ != nullptr) budget_->charge_unseen(shared_.end, events_played());
   take_clock();
   note_changes();
   add_counters();

@@ -67,6 +67,7 @@
 #include "game/physics/counters.h"
 #include "game/physics/engine/engine.h"
 #include "game/physics/event.h"
+#include "game/physics/event_budget.h"
 #include "game/physics/flight/motion.h"
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"
@@ -84,8 +85,9 @@ class Slabs {
   Slabs(const Slabs&) = delete;
   Slabs& operator=(const Slabs&) = delete;
 
-  /// As Engine::advance().
-  std::optional<Goal> advance(Real until);
+  /// As Engine::advance(), with or without a budget. Windows that tiles play are within it; their
+  /// events are charged, but not named.
+  std::optional<Goal> advance(Real until, EventBudget* budget = nullptr);
 
  private:
   /// Tiles, which begin so many cells before the field does.
@@ -104,6 +106,9 @@ class Slabs {
   bool may_divide() const;
   Real next_end(Real until) const;
   bool is_worth_dividing(Real end) const;
+  std::optional<Goal> play_in_order(Real until);
+  bool has_room(Real end, std::uint64_t events) const;
+  std::uint64_t events_played() const;
   bool play_window(Real end);
   void be_patient(bool was_good);
   bool was_worth_it() const;
@@ -136,6 +141,7 @@ class Slabs {
   Engine& engine_;
   Engine::Parts parts_;
   SlabPlan plan_;
+  EventBudget* budget_ = nullptr;  // while time advances, if there is one
   Books books_;
   SharedWindow shared_;
   std::vector<std::unique_ptr<Tile>> tiles_;  // one for each worker

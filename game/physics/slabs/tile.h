@@ -80,6 +80,7 @@ class Tile {
   /// At the latest event since then.
   const Clock& clock() const { return is_later(clock_, latest_) ? clock_ : latest_; }
   EventRecord& record() { return record_; }
+  const EventRecord& record() const { return record_; }
   /// With its books, where the last pass adds what the engine's events took.
   PairImpact& impact() { return impact_; }
   std::uint64_t at_once_max() const { return at_once_max_; }
