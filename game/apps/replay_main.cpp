@@ -1,4 +1,5 @@
 // rink replay: replays a recorded game and reports whether it ends in the same state.
+#include <cerrno>
 #include <chrono>
 #include <exception>
 #include <iostream>
@@ -7,6 +8,7 @@
 #include "game/apps/command.h"
 #include "game/control/key_log_file.h"
 #include "game/control/replay.h"
+#include "game/model/system_reason.h"
 #include "game/version/version.h"
 #include "im/basics/hexadecimal.h"
 
@@ -28,11 +30,14 @@ int replay(const std::string& file) {
                    ", but ", hexadecimal(*log.hash), " was recorded");
     return other_hash;
   }
+  errno = 0;
   std::cout << "scene " << log.scene << ", seed " << log.seed << ", " << scene.bodies.bats.size()
             << " bats, " << log.events.size() << " keys, " << *log.until << " s: hash "
             << hexadecimal(hash) << " as recorded (" << wall_s << " s)\n"
             << std::flush;
-  if (!std::cout) throw std::runtime_error("the standard output: cannot be written to its end");
+  if (!std::cout)
+    throw std::runtime_error("the standard output: cannot be written to its end: " +
+                             game::system_reason(errno));
   return 0;
 }
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "game/control/simulate_progress.h"
 #include "game/model/listed.h"
 #include "game/model/scene_file.h"
+#include "game/model/system_reason.h"
 #include "game/physics/overrun.h"
 #include "game/players/player_kinds.h"
 #include "game/process/thread_team.h"
@@ -56,19 +58,35 @@ std::vector<game::InputEvent> submit_keys(game::Game& game, const game::Scene& s
   return log.events;
 }
 
+/// After each attempt to write, before anything else sets errno.
+void require_written(bool is_written, const std::string& what) {
+  if (!is_written)
+    throw game::SceneError(what + ": cannot be written to its end: " + game::system_reason(errno));
+}
+
 /// Opened before the simulation, so that a long run does not end in a path that cannot be written.
 std::ofstream opened(const std::string& file) {
   std::ofstream stream;
   if (file.empty()) return stream;
+  errno = 0;
   stream.open(file);
-  if (!stream) throw game::SceneError(file + ": cannot be written");
+  if (!stream) throw game::SceneError(file + ": cannot be written: " + game::system_reason(errno));
   return stream;
 }
 
 void close(std::ofstream& stream, const std::string& file) {
   if (file.empty()) return;
   stream.close();
-  if (!stream) throw game::SceneError(file + ": cannot be written to its end");
+  require_written(stream.good(), file);
+}
+
+/// What happened in the last stride; a disk that is full ends the run there, not after it.
+template <class Played>
+void write_events(const Played& played, const Options& options, std::ofstream& events) {
+  if (options.events.empty()) return;
+  errno = 0;
+  game::write_events(events, played.events());
+  require_written(events.good(), options.events);
 }
 
 /// The files of results, all of which are opened before the first step.
@@ -97,7 +115,7 @@ double play(Played& played, const game::Game& game, const Options& options,
     const double next = std::min(options.until, game.now() + stride);
     if (budget) played.advance(next, *budget);
     else played.advance(next);
-    if (!options.events.empty()) game::write_events(events, played.events());
+    write_events(played, options, events);
     const double after_s = passed_s();
     if (after_s - before_s < stride_least_s) stride *= 2.0;
     if (after_s - before_s > stride_most_s) stride = std::max(stride / 2.0, 1e-9 * options.until);
@@ -110,12 +128,17 @@ double play(Played& played, const game::Game& game, const Options& options,
 
 void write_results(const Options& options, const game::Game& game, double wall_s,
                    const std::optional<physics::EventBudget>& budget, Outputs& outputs) {
+  errno = 0;
   if (!options.states.empty()) game::write_states(outputs.states, game);
+  const bool are_states_written = outputs.states.flush().good();
+  const int states_error = errno;
+  errno = 0;
   (options.summary.empty() ? std::cout : outputs.summary)
       << game::summary_of(game, options.engine, wall_s, budget) << '\n';
-  if (!std::cout.flush())
-    throw game::SceneError("the standard output: cannot be written to its end");
-  close(outputs.states, options.states);
+  require_written(std::cout.flush().good(), "the standard output");
+  errno = states_error;
+  require_written(are_states_written, options.states);
+  errno = 0;
   close(outputs.events, options.events);
   close(outputs.summary, options.summary);
 }
@@ -131,6 +154,7 @@ void write_record(const Options& options, const game::Scene& scene, const game::
   if (options.engine.engine == "exact" && !game.is_cut_short()) log.hash = game.hash();
   std::erase_if(events, [&](const game::InputEvent& event) { return event.time > game.now(); });
   log.events = std::move(events);
+  errno = 0;
   game::write_key_log(record, log);
   close(record, options.record);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "game/model/system_reason.h"
 #include "game/physics/snapshot_stream.h"
 
 namespace rink::game {
@@ -185,11 +187,12 @@ GameState::Restored GameState::restore(std::span<const std::uint8_t> bytes, cons
 }
 
 void write_game_state(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+  errno = 0;
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
   stream.close();
-  if (!stream) throw SceneError(file.string() + ": cannot be written");
+  if (!stream) throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
 }
 
 std::vector<std::uint8_t> read_game_state(const std::filesystem::path& file) {

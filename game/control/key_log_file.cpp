@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <streambuf>
 
 #include "game/control/key_log_packed.h"
+#include "game/model/system_reason.h"
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
 
@@ -261,10 +263,11 @@ class Writer {
 void write_key_log(std::ostream& stream, const KeyLog& log) { Writer(stream).write(log); }
 
 void write_key_log(const std::filesystem::path& file, const KeyLog& log) {
+  errno = 0;
   std::ofstream stream(file);
   write_key_log(stream, log);
   stream.close();
-  if (!stream) throw SceneError(file.string() + ": cannot be written");
+  if (!stream) throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
 }
 
 KeyLog read_key_log(std::istream& stream, const std::string& name) {

@@ -6,12 +6,14 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <istream>
 #include <ostream>
 
+#include "game/model/system_reason.h"
 #include "game/model/time_grid.h"
 #include "im/basics/fnv_hash.h"
 #include "im/basics/varint.h"
@@ -243,15 +245,17 @@ void write_packed_key_log(std::ostream& stream, const KeyLog& log) {
 }
 
 void write_packed_key_log(const std::filesystem::path& file, const KeyLog& log) {
+  errno = 0;
   std::ofstream stream(file, std::ios::binary);
   const bool is_open = stream.is_open();
   write_packed_key_log(stream, log);
   stream.close();
   if (stream) return;
+  const std::string reason = system_reason(errno);
   std::error_code error;
   if (is_open && std::filesystem::is_regular_file(file, error))
     std::filesystem::remove(file, error);
-  throw SceneError(file.string() + ": cannot be written" + (is_open ? ": is there room?" : ""));
+  throw SceneError(file.string() + ": cannot be written: " + reason);
 }
 
 KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {

@@ -1,10 +1,12 @@
 // Writes records under the first free number.
 #include "game/control/match_records.h"
 
+#include <cerrno>
 #include <fstream>
 #include <utility>
 
 #include "game/control/key_log_packed.h"
+#include "game/model/system_reason.h"
 
 namespace rink::game {
 
@@ -15,10 +17,13 @@ void MatchRecords::require_writable() const {
     throw SceneError(folder_.string() +
                      ": this folder for records of matches cannot be made: " + error.message());
   const std::filesystem::path attempt = folder_ / ".match";
+  errno = 0;
   const bool is_writable = static_cast<bool>(std::ofstream(attempt));
+  const std::string reason = system_reason(errno);
   std::filesystem::remove(attempt, error);
   if (!is_writable)
-    throw SceneError(folder_.string() + ": records of matches cannot be written to this folder");
+    throw SceneError(folder_.string() +
+                     ": records of matches cannot be written to this folder: " + reason);
 }
 
 std::filesystem::path MatchRecords::write(const KeyLog& log) {

@@ -3,11 +3,12 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+
+#include "game/model/system_reason.h"
 
 namespace rink::game {
 
@@ -15,14 +16,16 @@ void require_writable(const std::string& flag, const std::string& path) {
   if (path.empty()) return;
   std::FILE* file = std::fopen(path.c_str(), "ab");
   if (file == nullptr)
-    throw std::runtime_error(flag + ": cannot write '" + path + "': " + std::strerror(errno));
+    throw std::runtime_error(flag + ": cannot write '" + path + "': " + system_reason(errno));
   std::fclose(file);
 }
 
 void write_file(const std::string& path, const std::string& text) {
+  errno = 0;
   std::ofstream file(path);
   file << text << '\n';
-  if (!file.flush()) throw std::runtime_error("cannot write '" + path + "'");
+  if (!file.flush())
+    throw std::runtime_error("cannot write '" + path + "': " + system_reason(errno));
 }
 
 RecordFile::RecordFile(const std::string& flag, const std::string& path)

@@ -1,9 +1,11 @@
 // Writes and reads lines; the last one shows whether all others are complete and unaltered.
 #include "game/net/trace_lines.h"
 
+#include <cerrno>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "game/model/system_reason.h"
 #include "im/basics/hexadecimal.h"
 
 namespace rink::game {
@@ -15,7 +17,15 @@ std::string last_line(std::uint64_t lines, std::uint64_t hash) {
 
 }  // namespace
 
-TraceWriter::TraceWriter(std::string file) : file_(std::move(file)), stream_(file_) {}
+TraceWriter::TraceWriter(std::string file)
+    : file_(std::move(file)), error_((errno = 0)), stream_(file_) {
+  note_error();
+}
+
+/// At the first failure, for other calls set errno between two lines.
+void TraceWriter::note_error() {
+  if (!stream_ && error_ == 0) error_ = errno;
+}
 
 void TraceWriter::line(const nlohmann::ordered_json& value) {
   line_of_text(value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -25,13 +35,18 @@ void TraceWriter::line_of_text(std::string text) {
   text += '\n';
   hash_.add(text);
   ++lines_;
+  errno = 0;
   stream_ << text;
+  note_error();
 }
 
 void TraceWriter::finish() {
-  stream_ << last_line(lines_, hash_.value());
+  const std::string last = last_line(lines_, hash_.value());
+  errno = 0;
+  stream_ << last;
   stream_.close();
-  if (!stream_) throw std::runtime_error("cannot write '" + file_ + "'");
+  note_error();
+  if (!stream_) throw std::runtime_error("cannot write '" + file_ + "': " + system_reason(error_));
 }
 
 TraceReader::TraceReader(std::string file) : file_(std::move(file)) {

@@ -30,7 +30,10 @@ class TraceWriter {
   void finish();
 
  private:
+  void note_error();
+
   std::string file_;
+  int error_ = 0;  ///< errno of the first failure
   std::ofstream stream_;
   std::uint64_t lines_ = 0;
   Fnv64 hash_;

@@ -2,11 +2,13 @@
 #include "loadgen/measure/discovery_table.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "game/model/report_schema.h"
+#include "game/model/system_reason.h"
 #include "loadgen/experiment/cell_key.h"
 #include "loadgen/experiment/csv_number.h"
 #include "loadgen/measure/results.h"
@@ -46,9 +48,11 @@ void write_discoveries(const std::filesystem::path& file, const Discoveries& dis
                                        {"late_discovery", discoveries.late_discovery.to_json()},
                                        {"missed_contact", discoveries.missed_contact.to_json()},
                                        {"displayed_error", discoveries.displayed_error.to_json()}};
+  errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << content.dump() << '\n' << std::flush;
-  if (!stream) throw OutputError(file.string() + ": cannot be written");
+  if (!stream)
+    throw OutputError(file.string() + ": cannot be written: " + game::system_reason(errno));
 }
 
 std::vector<CellDiscoveries> discoveries_in(const std::filesystem::path& cells,

@@ -8,11 +8,11 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "game/model/system_reason.h"
 #include "loadgen/measure/run_fields.h"
 
 namespace rink::loadgen {
@@ -22,8 +22,7 @@ constexpr std::array result_names{"runs.jsonl", "summary.csv",   "comparisons.cs
                                   "tidy.csv",   "discovery.csv", "report.html"};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int error) {
-  throw OutputError(file.string() + ": cannot be written: " +
-                    (error != 0 ? std::strerror(error) : "unknown reason"));
+  throw OutputError(file.string() + ": cannot be written: " + game::system_reason(error));
 }
 
 void make_directory(const std::filesystem::path& path) {

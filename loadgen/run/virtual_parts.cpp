@@ -2,11 +2,13 @@
 #include "loadgen/run/virtual_parts.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "game/control/key_log_file.h"
+#include "game/model/system_reason.h"
 #include "loadgen/measure/results.h"
 #include "rti/transport/modelled/link_stream.h"
 
@@ -54,9 +56,11 @@ std::int64_t settling_ns(const Experiment& experiment) {
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& content) {
+  errno = 0;
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   stream << content.dump(2) << '\n' << std::flush;
-  if (!stream) throw OutputError(file.string() + ": cannot be written");
+  if (!stream)
+    throw OutputError(file.string() + ": cannot be written: " + game::system_reason(errno));
 }
 
 std::vector<game::InputEvent> keys_in(const std::filesystem::path& key_log,

@@ -167,5 +167,13 @@ TEST(GameState, FileOfAnotherSceneVersionOrDamagedIsRefusedByName) {
               HasSubstr("none.state: cannot be read"));
 }
 
+TEST(GameState, SaysWhyItCannotBeWritten) {
+  const std::vector<std::uint8_t> bytes(10'000);
+  EXPECT_EQ(refusal_of([&] { write_game_state("/dev/full", bytes); }),
+            "/dev/full: cannot be written: No space left on device");
+  EXPECT_EQ(refusal_of([&] { write_game_state("/nowhere/at/all", bytes); }),
+            "/nowhere/at/all: cannot be written: No such file or directory");
+}
+
 }  // namespace
 }  // namespace rink::game

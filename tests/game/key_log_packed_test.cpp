@@ -156,7 +156,7 @@ TEST(PackedKeyLog, ThatFindsNoRoomSaysSo) {
     write_packed_key_log(std::filesystem::path("/dev/full"), small_log());
     FAIL() << "a full disk was written to";
   } catch (const SceneError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/dev/full: cannot be written: is there room?"));
+    EXPECT_THAT(error.what(), HasSubstr("/dev/full: cannot be written: No space left on device"));
   }
 }
 

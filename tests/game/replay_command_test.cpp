@@ -59,7 +59,9 @@ TEST_F(ReplayCommand, ComesToTheHashOfTheRecordedGame) {
 TEST_F(ReplayCommand, SaysThatItsWordsCouldNotBeWritten) {
   record();
   EXPECT_EQ(run("replay " + file("keys"), "/dev/full"), 2);
-  EXPECT_THAT(said_, HasSubstr("the standard output: cannot be written to its end"));
+  EXPECT_THAT(
+      said_,
+      HasSubstr("the standard output: cannot be written to its end: No space left on device"));
 }
 
 TEST_F(ReplayCommand, NeedsNothingButTheLog) {

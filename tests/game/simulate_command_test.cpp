@@ -259,6 +259,18 @@ TEST_F(SimulateCommand, RefusesNoThreadsAndMoreThanBodiesOrThanAnyMachineRuns) {
   EXPECT_THAT(said_, HasSubstr("--threads is for the exact engine"));
 }
 
+TEST_F(SimulateCommand, SaysWhyAFileCannotBeWritten) {
+  for (const std::string flag : {"--states", "--events", "--summary", "--record"}) {
+    EXPECT_EQ(simulate("crowd --bats 5 --until 1 " + flag + " /nowhere/at/all"), 2) << flag;
+    EXPECT_EQ(said_,
+              "rink simulate: /nowhere/at/all: cannot be written: No such file or directory\n");
+    EXPECT_EQ(simulate("crowd --bats 5 --until 1 " + flag + " /dev/full"), 2) << flag;
+    EXPECT_EQ(said_,
+              "rink simulate: /dev/full: cannot be written to its end: No space left on device\n")
+        << flag;
+  }
+}
+
 TEST(SceneDocumentation, ShowsASceneThatLoadsAndPlays) {
   const std::string page = test::text_of(test::source_folder() + "/docs/scenes.md");
   const std::size_t start = page.find("```toml\n") + 8;

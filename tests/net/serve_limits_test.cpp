@@ -108,7 +108,8 @@ TEST(ServeLimits, AGameWithMoreEventsThanItsBudgetGoesOnMoreSlowlyAndSaysWhy) {
   EXPECT_NEAR(result.at("behind_s").get<double>(), 0.5, 1e-3);
   EXPECT_EQ(result.at("valid"), false);
   EXPECT_EQ(result.at("why_invalid"),
-            "the physics exceeded --budget: 15 ticks were cut short, and the game fell 0.5 s behind");
+            "the physics exceeded --budget: 15 ticks were cut short, and the game fell 0.5 s "
+            "behind");
 }
 
 /// Half a second of the row at a server whose one player takes turns whenever it may.
