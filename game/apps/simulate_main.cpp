@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <exception>
 #include <fstream>
 #include <iostream>
@@ -17,6 +18,7 @@
 #include "game/model/listed.h"
 #include "game/model/scene_file.h"
 #include "game/model/system_reason.h"
+#include "game/net/interrupt.h"
 #include "game/physics/overrun.h"
 #include "game/players/player_kinds.h"
 #include "game/process/thread_team.h"
@@ -26,7 +28,7 @@ namespace {
 
 using namespace rink;
 
-constexpr int bad_input = 2, over_budget = 3;
+constexpr int bad_input = 2, over_budget = 3, interrupted = 130;
 constexpr double frames_max = 1e12;
 constexpr double until_max = 1e9;  // s, as in scenes
 constexpr std::uint64_t budget_max = 1'000'000'000'000;
@@ -40,6 +42,15 @@ struct Options {
   physics::SimulatorChoice engine;
   bool has_integrator = false, has_dt = false;
 };
+
+/// The first ends the run between two strides, with the results so far. A stride may take very
+/// long: the second one ends it at once, and so does any other signal, of who does not come again.
+void hear_first_interrupt() {
+  std::signal(SIGINT, [](int number) {
+    game::is_interrupted = true;
+    std::signal(number, SIG_DFL);
+  });
+}
 
 game::Scene scene_of(const Options& options) {
   game::Scene scene = game::load_scene(options.scene);
@@ -101,7 +112,8 @@ struct Outputs {
 
 /// Advances in strides of about a tenth of a second, so that progress is shown and events are
 /// written as they come. The strides do not affect the game. `played` is a Game or a Playing,
-/// `game` the game itself; it ends early if `budget` is exceeded. Returns how long it took [s].
+/// `game` the game itself; it ends early if `budget` is exceeded or it is interrupted. Returns how
+/// long it took [s].
 template <class Played>
 double play(Played& played, const game::Game& game, const Options& options,
             std::optional<physics::EventBudget>& budget, std::ofstream& events) {
@@ -110,7 +122,7 @@ double play(Played& played, const game::Game& game, const Options& options,
   const auto passed_s = [&] { return game::now_s() - start_s; };
   game::SimulateProgress progress(std::cerr, isatty(STDERR_FILENO) != 0, options.until);
   if (!options.events.empty()) played.record_events(true), game::write_events_heading(events);
-  double stride = std::max(options.until / 1024.0, 1e-9), before_s = 0.0;
+  double stride = std::clamp(options.until / 1024.0, 1e-9, 0.01), before_s = 0.0;
   do {
     const double next = std::min(options.until, game.now() + stride);
     if (budget) played.advance(next, *budget);
@@ -121,7 +133,7 @@ double play(Played& played, const game::Game& game, const Options& options,
     if (after_s - before_s > stride_most_s) stride = std::max(stride / 2.0, 1e-9 * options.until);
     before_s = after_s;
     progress.reached(game.now(), game.simulator().counters().events(), after_s);
-  } while (game.now() < options.until && !game.is_cut_short());
+  } while (game.now() < options.until && !game.is_cut_short() && !game::is_interrupted);
   progress.clear();
   return passed_s();
 }
@@ -159,8 +171,13 @@ void write_record(const Options& options, const game::Scene& scene, const game::
   close(record, options.record);
 }
 
-int status_after(const game::Game& game, const std::optional<physics::EventBudget>& budget) {
-  if (!game.is_cut_short()) return 0;
+int status_after(const game::Game& game, const Options& options,
+                 const std::optional<physics::EventBudget>& budget) {
+  if (!game.is_cut_short()) {
+    if (game.now() >= options.until) return 0;
+    game::complain("interrupted: the results are those of ", game.now(), " s");
+    return interrupted;
+  }
   game::complain("stopped by --budget: ",
                  physics::text_of(physics::overrun_of(game.world(), *budget)));
   return over_budget;
@@ -181,19 +198,20 @@ int simulate(const Options& options) {
   Outputs outputs(options);
   std::optional<physics::EventBudget> budget;
   if (options.events_per_s) budget.emplace(*options.events_per_s);
+  hear_first_interrupt();
   if (options.players.empty()) {
     game::Game game(scene, options.engine);
     const std::vector<game::InputEvent> keys = submit_keys(game, scene, options.keys);
     const double wall_s = play(game, game, options, budget, outputs.events);
     write_results(options, game, wall_s, budget, outputs);
     write_record(options, scene, game, keys, outputs.record);
-    return status_after(game, budget);
+    return status_after(game, options, budget);
   }
   game::Playing playing(scene, options.players, scene.seed, options.until, options.engine);
   const double wall_s = play(playing, playing.game(), options, budget, outputs.events);
   write_results(options, playing.game(), wall_s, budget, outputs);
   write_record(options, scene, playing.game(), playing.keys(), outputs.record);
-  return status_after(playing.game(), budget);
+  return status_after(playing.game(), options, budget);
 }
 
 /// Throws if the chosen engine has a fault.
@@ -302,8 +320,8 @@ int main(int count, char** words) {
       "Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd "
       "--until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match "
       "--players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 "
-      "bad scene, key log or flag, 3 stopped by --budget (results are those of "
-      "the instant reached).");
+      "bad scene, key log or flag, 3 stopped by --budget, 130 interrupted (with the results of "
+      "the instant reached; a second interrupt ends at once).");
   return game::run_command(flags, count, words,
                            {.run =
                                 [&] {

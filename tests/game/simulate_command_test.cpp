@@ -12,6 +12,7 @@
 #include "game/control/key_log_file.h"
 #include "game/control/simulate_progress.h"
 #include "game/model/report_schema.h"
+#include "im/basics/hexadecimal.h"
 #include "tests/command.h"
 #include "tests/game/rink_scenes.h"
 #include "tests/places.h"
@@ -261,6 +262,24 @@ TEST_F(SimulateCommand, RefusesNoThreadsAndMoreThanBodiesOrThanAnyMachineRuns) {
 
 TEST_F(SimulateCommand, SaysWhyAFileCannotBeWritten) {
   for (const std::string flag : {"--states", "--events", "--summary", "--record"}) {
+TEST_F(SimulateCommand, WritesTheResultsOfTheInstantAtWhichItIsInterrupted) {
+  const std::string command =
+      "timeout --preserve-status -s INT 0.5 " + test::binary_folder() +
+      "/bin/rink-simulate crowd --bats 5 --players chaser --until 1e6 --states " +
+      file("states.csv") + " --events " + file("events.csv") + " --record " + file("keys") + " >" +
+      file("printed") + " 2>" + file("said");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 130);
+  EXPECT_THAT(content("said"), testing::StartsWith("rink simulate: interrupted: the results are "
+                                                   "those of "));
+  EXPECT_THAT(content("events.csv"), testing::EndsWith("\n"));
+  const KeyLog log = read_key_log(std::filesystem::path(file("keys")));
+  ASSERT_TRUE(log.until && log.hash);
+  EXPECT_GT(*log.until, 0.0);
+  EXPECT_LT(*log.until, 1e6);
+  EXPECT_THAT(content("printed"), HasSubstr(hexadecimal(*log.hash)));
+  EXPECT_GT(rows_of(file("states.csv")).size(), 5u);
+}
+
     EXPECT_EQ(simulate("crowd --bats 5 --until 1 " + flag + " /nowhere/at/all"), 2) << flag;
     EXPECT_EQ(said_,
               "rink simulate: /nowhere/at/all: cannot be written: No such file or directory\n");
