@@ -46,21 +46,24 @@ Check zero_or_number_from(double low, double high) {
           "0 or " + from.validator().get_description()};
 }
 
+/// CLI11 itself takes -1 for 2^64 - 1, and says that 1e3 is not from 1 to a million.
 Check whole_number_from(std::uint64_t low, std::uint64_t high) {
-  return Check(CLI::Range(low, high));
+  const std::string range = "from " + std::to_string(low) + " to " + std::to_string(high);
+  return {
+      [low, high, range](const std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_whole = error == std::errc() && end == text.data() + text.size();
+        return is_whole && value >= low && value <= high ? ""
+                                                         : text + " is not a whole number " + range;
+      },
+      range};
 }
 
-/// CLI11 itself takes -1 for 2^64 - 1.
 Check whole_number_up_to(std::uint64_t most) {
-  return {[most](const std::string& text) -> std::string {
-            std::uint64_t value = 0;
-            const auto [end, error] =
-                std::from_chars(text.data(), text.data() + text.size(), value);
-            return error == std::errc() && end == text.data() + text.size() && value <= most
-                       ? ""
-                       : text + " is not a whole number from 0 to " + std::to_string(most);
-          },
-          ""};
+  return {
+      [from = whole_number_from(0, most)](const std::string& text) { return from.objection(text); },
+      ""};
 }
 
 Check not_empty() {
