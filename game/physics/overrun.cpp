@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <map>
+#include <sstream>
 #include <utility>
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -81,35 +82,31 @@ BusyBody busy_body(const World& world, std::uint32_t body, const Tally& tally,
   return busy;
 }
 
-std::string formatted(double value, int digits) {
-  char text[64];
-  const auto written =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits);
-  assert(written.ec == std::errc());
-  return {text, written.ptr};
-}
-
-std::string text_of(const BusyBody& busy) {
-  std::string text = "body " + std::to_string(busy.body.index) + " in " +
-                     formatted(100.0 * busy.share, 3) + " % of them, ";
+void write(std::ostream& text, const BusyBody& busy) {
   const std::string partner =
       busy.partner ? "body " + std::to_string(busy.partner->index) : "the field";
+  text << std::setprecision(3) << "body " << busy.body.index << " in " << 100.0 * busy.share
+       << " % of them, ";
   switch (busy.reason) {
     case OverrunReason::pressed:
-      return text + "pressed by thrust, mostly against " + partner;
+      text << "pressed by thrust, mostly against " << partner;
+      return;
     case OverrunReason::no_room:
-      return text + "with no room: at most " + formatted(busy.free_path, 2) +
-             " m between two, mostly with " + partner;
+      text << "with no room: at most " << std::setprecision(2) << busy.free_path
+           << " m between two, mostly with " << partner;
+      return;
     case OverrunReason::light:
-      return text + "being light: others are " + formatted(busy.mass_ratio, 3) + " times as heavy";
+      text << "being light: others are " << busy.mass_ratio << " times as heavy";
+      return;
     case OverrunReason::common:
-      return text + "no more than others";
+      text << "no more than others";
+      return;
     case OverrunReason::fast:
-      return text + "being fast: up to " + formatted(busy.free_path, 2) +
-             " m between two, mostly with " + partner;
+      text << "being fast: up to " << std::setprecision(2) << busy.free_path
+           << " m between two, mostly with " << partner;
+      return;
   }
   assert(false);
-  return text;
 }
 
 }  // namespace
@@ -135,13 +132,13 @@ Overrun overrun_of(const World& world, const EventBudget& budget) {
 }
 
 std::string text_of(const Overrun& overrun) {
-  std::string text = std::to_string(overrun.events) + " events within a simulated second where " +
-                     std::to_string(overrun.events_per_s) + " may be, at " +
-                     formatted(static_cast<double>(overrun.time), 17) + " s; the last " +
-                     std::to_string(overrun.looked_at) + " took " +
-                     formatted(static_cast<double>(overrun.span), 2) + " s";
-  for (const BusyBody& busy : overrun.busiest) text += "; " + text_of(busy);
-  return text;
+  std::ostringstream text;
+  text << overrun.events << " events within a simulated second where " << overrun.events_per_s
+       << " may be, at " << std::setprecision(17) << static_cast<double>(overrun.time)
+       << " s; the last " << overrun.looked_at << " took " << std::setprecision(2)
+       << static_cast<double>(overrun.span) << " s";
+  for (const BusyBody& busy : overrun.busiest) write(text << "; ", busy);
+  return text.str();
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION
