@@ -73,7 +73,7 @@ std::optional<Goal> World::advance(Real until) {
   return slabs_ ? slabs_->advance(until) : engine_->advance(until);
 }
 std::optional<Goal> World::advance(Real until, EventBudget& budget) {
-  return slabs_ ? slabs_->advance(until, &budget) : engine_->advance(until, budget);
+  return slabs_ ? slabs_->advance(until, &budget) : engine_->advance(until, &budget);
 }
 
 void World::record_events(bool is_wanted) { engine_->record().keep(is_wanted); }

@@ -220,8 +220,9 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   settle();
 }
 
-std::optional<Goal> Engine::advance(Real until) {
+std::optional<Goal> Engine::advance(Real until, EventBudget* budget) {
   assert(until >= clock_.now && until < infinity);
+  assert(budget == nullptr || (!budget->is_exceeded() && observers_.journal == nullptr));
   // Or else a stop between two keys of one instant would let the first one's impacts come before
   // the second one.
   if (clock_.is_played && until == clock_.now) return std::nullopt;
@@ -232,33 +233,22 @@ std::optional<Goal> Engine::advance(Real until) {
   for (std::uint32_t body = events_.first(until); body != NextEvents::none;
        body = events_.first(until)) {
     if (looks_ahead && look_ahead_.is_due()) look_ahead_.fetch();
-    process(body, events_.time(body));
+    if (budget == nullptr) process(body, events_.time(body));
+    else process(body, *budget);
     if (goal_) return std::exchange(goal_, std::nullopt);
+    if (budget != nullptr && budget->is_exceeded()) return std::nullopt;
   }
   clock_.arrive(until);
   return std::nullopt;
 }
 
-/// Apart from advance(Real), which everybody pays for.
-std::optional<Goal> Engine::advance(Real until, EventBudget& budget) {
-  assert(until >= clock_.now && until < infinity && !budget.is_exceeded());
-  assert(observers_.journal == nullptr);
-  if (clock_.is_played && until == clock_.now) return std::nullopt;
-  predict_pending();
-  clock_.is_played = false;
+void Engine::process(std::uint32_t body, EventBudget& budget) {
   const Counters& counters = record_.counters();
-  for (std::uint32_t body = events_.first(until); body != NextEvents::none;
-       body = events_.first(until)) {
-    const Partner partner = events_[body].partner;
-    const std::uint64_t before = counters.recordable(), hops = counters.hops;
-    process(body, events_.time(body));
-    if (const std::uint64_t count = counters.recordable() - before; count > 0)
-      budget.charge({clock_.now, body, partner, count, counters.hops > hops});
-    if (goal_) return std::exchange(goal_, std::nullopt);
-    if (budget.is_exceeded()) return std::nullopt;
-  }
-  clock_.arrive(until);
-  return std::nullopt;
+  const Partner partner = events_[body].partner;
+  const std::uint64_t before = counters.recordable(), hops = counters.hops;
+  process(body, events_.time(body));
+  if (const std::uint64_t count = counters.recordable() - before; count > 0)
+    budget.charge({clock_.now, body, partner, count, counters.hops > hops});
 }
 
 void Engine::process(std::uint32_t body, Real time) {

@@ -70,8 +70,8 @@ class Engine {
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const RealVector& acceleration);
   void place(std::uint32_t puck, const RealVector& position, const RealVector& velocity);
-  std::optional<Goal> advance(Real until);
-  std::optional<Goal> advance(Real until, EventBudget& budget);
+  /// As World's, whose `budget` is null here without one.
+  std::optional<Goal> advance(Real until, EventBudget* budget = nullptr);
 
   WorldState state() const;
   /// Goes on from there, with the same bits.
@@ -115,6 +115,8 @@ class Engine {
   void require_prediction(std::uint32_t body);
   bool is_left_alone(std::uint32_t body) const;
   [[gnu::always_inline]] inline void cross_cell(std::uint32_t body);
+  /// As process(body, time of its event), which is then charged.
+  void process(std::uint32_t body, EventBudget& budget);
   void settle();
   void count_event(Real time);
   void score(std::uint32_t body, Real time);

@@ -55,7 +55,7 @@ std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
 }
 
 std::optional<Goal> Slabs::play_in_order(Real until) {
-  return budget_ != nullptr ? engine_.advance(until, *budget_) : engine_.advance(until);
+  return engine_.advance(until, budget_);
 }
 
 /// Whether the budget, if there is one, has room for so many until `end`.
