@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,10 @@ struct RunnerSettings {
       30.0;  ///< from the server's start to its line `listening on ADDRESS:PORT`
   double join_limit_s =
       20.0;  ///< beyond warm-up and duration, for joining, ending and writing reports
+  /// Events of the physics per simulated second at which a run in virtual time ends as invalid.
+  /// Nobody waits for its ticks, so these may take a minute, but scenes exist in which they never
+  /// end (docs/physics.md, "Limits").
+  std::uint64_t virtual_events_per_s = 100'000'000;
   std::chrono::milliseconds stop_grace{1000};  ///< from SIGTERM to SIGKILL
   const std::atomic<bool>* is_interrupted =
       nullptr;  ///< looked at every 20 ms; ends the cell when true

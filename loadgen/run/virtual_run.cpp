@@ -94,7 +94,8 @@ game::ServerSettings VirtualRun::server_settings(const game::Scene& scene,
                                 .threshold = cell_.parameters.threshold,
                                 .sweep_ticks = cell_.parameters.sweep_ticks,
                                 .tick_s = 1.0 / cell_.parameters.tick_rate_hz,
-                                .replay = {}};
+                                .replay = {},
+                                .events_per_s = settings_.virtual_events_per_s};
   if (experiment_.keys == KeySource::replay) settings.replay = keys;
   settings.always_relevant = game::relevant_kinds_of(scene, experiment_.always);
   if (begun_) settings.begun = &*begun_;
@@ -226,6 +227,8 @@ void VirtualRun::play() {
       measured_until_ns_ = network_.now_ns();
     }
     serving_.tick(experiment_.start_s + simulated_s, now_s());
+    if (const auto complaint = server_.budget().take_complaint())
+      throw Failure{"the server: " + *complaint};
     crowd_.run_once();
     if (simulated_s >= experiment_.warm_up_s && number < last) ++ticks_;
   }

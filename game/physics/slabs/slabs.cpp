@@ -54,9 +54,7 @@ std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
   return play_in_order(until);
 }
 
-std::optional<Goal> Slabs::play_in_order(Real until) {
-  return engine_.advance(until, budget_);
-}
+std::optional<Goal> Slabs::play_in_order(Real until) { return engine_.advance(until, budget_); }
 
 /// Whether the budget, if there is one, has room for so many until `end`.
 bool Slabs::has_room(Real end, std::uint64_t events) const {

@@ -2,6 +2,7 @@
 // bytes every time.
 #include "loadgen/run/virtual_run.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,6 +113,17 @@ TEST_F(VirtualRunTest, EndsInTheStateOfTheSameCellOverRealSockets) {
       EXPECT_TRUE(of_processes.contains(key) || mine.contains(key))
           << "the " << who << "' report over sockets has " << key;
   }
+}
+
+TEST_F(VirtualRunTest, EndsAsInvalidWhereThePhysicsHasTooManyEvents) {
+  settings_.virtual_events_per_s = 20;
+  const Cell cell = first_cell();
+  const auto record = run_virtual_cell(settings_, experiment_, cell, key_log(cell));
+  ASSERT_TRUE(record);
+  EXPECT_FALSE(record->valid);
+  EXPECT_THAT(record->why_invalid,
+              testing::StartsWith("the server: 21 events within a simulated second where 20 may "
+                                  "be, at "));
 }
 
 TEST_F(VirtualRunTest, TheSameSeedGivesTheSameBytesWhereverItRuns) {
