@@ -53,6 +53,7 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   transfers_.clear();
   const Counters& after = parts_.record.counters();
   orders_.resize(parts_.record.events().size(), order);
+  if (crosses) note_speed(body);
   for (const std::uint32_t other : changed_) {
     note_speed(other);
     if (parts_.places.grid().is_in_one_cell(other)) tile_.mark(other, partner::none, order.time);

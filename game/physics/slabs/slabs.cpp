@@ -68,9 +68,12 @@ std::uint64_t Slabs::events_played() const {
   return events;
 }
 
+/// Windows up to `until` are equally long: the plain loop would play what is left of too short a
+/// one.
 Real Slabs::next_end(Real until) const {
-  const Real now = parts_.clock.now, third = parts_.events.windows()->next_end(now) - now;
-  return std::min(until, now + third * Real(plan_.window * share_));
+  const Real now = parts_.clock.now, third = parts_.events.windows()->next_end(now) - now,
+             longest = third * Real(plan_.window * share_), left = until - now;
+  return left > longest ? now + left / std::ceil(left / longest) : until;
 }
 
 /// Each window looks at all that have an event.
@@ -136,6 +139,7 @@ void Slabs::begin_window(Real end) {
   }
   const std::size_t cells = std::size_t{grid.columns()} * grid.rows();
   if (shared_.played.size() != cells) shared_.played.assign(cells, -1.0);
+  tile_side_ = tile_side();
   ++shared_.number;
   shared_.begin = parts_.clock.now, shared_.end = end;
   shared_.block_radius = plan_.block_radius;
@@ -149,6 +153,15 @@ void Slabs::begin_window(Real end) {
   for (Tile* tile : all_tiles_) tile->record().keep(is_kept);
 }
 
+/// The side that the plan says, changed so that tiles fill the longer side of the field: a narrow
+/// last one would be all edge.
+int Slabs::tile_side() const {
+  const CellGrid& grid = parts_.places.grid();
+  const int cells = static_cast<int>(std::max(grid.columns(), grid.rows())),
+            count = std::max(1, (cells + plan_.tile_cells / 2) / plan_.tile_cells);
+  return std::max(4, (cells + count - 1) / count);
+}
+
 void Slabs::play_passes() {
   ++slab_counters().windows;
   play_tiles();
@@ -159,7 +172,7 @@ void Slabs::play_passes() {
 }
 
 void Slabs::play_tiles() {
-  const int half = plan_.tile_cells / 2;
+  const int half = tile_side_ / 2;
   due_.clear();
   WindowQueue& queue = *parts_.events.windows();
   for (const std::uint32_t body : queue.listed())
@@ -175,7 +188,7 @@ void Slabs::play_tiles() {
 void Slabs::play_pass(const Pass& shifted, std::span<const std::uint32_t> bodies) {
   const CellGrid& grid = parts_.places.grid();
   Pass pass = shifted;
-  const auto tiles = [side = plan_.tile_cells](std::uint32_t cells, int shift) {
+  const auto tiles = [side = tile_side_](std::uint32_t cells, int shift) {
     return (static_cast<int>(cells) + shift + side - 1) / side;
   };
   pass.across = tiles(grid.columns(), pass.shift_columns);
@@ -198,7 +211,7 @@ void Slabs::play_pass(const Pass& shifted, std::span<const std::uint32_t> bodies
 
 void Slabs::list_by_tile(const Pass& pass, std::span<const std::uint32_t> bodies) {
   const CellGrid& grid = parts_.places.grid();
-  const int side = plan_.tile_cells;
+  const int side = tile_side_;
   lists_.resize(std::max(lists_.size(), static_cast<std::size_t>(pass.across * pass.along)));
   for (auto& list : lists_) list.clear();
   const EventOrder* entries = parts_.events.windows()->entries();
@@ -214,7 +227,7 @@ void Slabs::list_by_tile(const Pass& pass, std::span<const std::uint32_t> bodies
 /// By `tile`, the tile of that number.
 void Slabs::play_listed(const Pass& pass, Tile& tile, std::uint32_t number) {
   const CellGrid& grid = parts_.places.grid();
-  const int side = plan_.tile_cells, columns = static_cast<int>(grid.columns()),
+  const int side = tile_side_, columns = static_cast<int>(grid.columns()),
             rows = static_cast<int>(grid.rows());
   const int column = static_cast<int>(number) % pass.across * side - pass.shift_columns,
             row = static_cast<int>(number) / pass.across * side - pass.shift_rows;
@@ -258,21 +271,35 @@ bool Slabs::is_right() const {
   return true;
 }
 
+/// Where those are listed whom the course may meet by the end of the window, when all are listed
+/// right and none has been faster than `speed`.
+CellGrid::Range Slabs::range_of(const Courses::Late& late, Real speed) const {
+  const CellGrid& grid = parts_.places.grid();
+  const Real left = shared_.end - late.from;
+  const bool is_curved = parts_.bodies[late.body].is(Body::curved);
+  const Flight& flight = late.flight;
+  const RealVector own_speed =
+      is_curved ? RealVector(speed, speed) : RealVector(std::abs(flight.vx), std::abs(flight.vy));
+  const RealVector start = is_curved ? motion_of({late.body, flight}).at(late.from).position
+                                     : RealVector(flight.x + flight.vx * (late.from - flight.time),
+                                                  flight.y + flight.vy * (late.from - flight.time));
+  const Real reach = 2.0 * parts_.places.reach() + Real(0.1 * grid.side());  // and cells' margins
+  const RealVector far = RealVector::Constant(reach + speed * left) + own_speed * left;
+  const auto low = (start - far).cast<double>().eval(), high = (start + far).cast<double>().eval();
+  return {grid.column(low.x()), grid.row(low.y()), grid.column(high.x()), grid.row(high.y())};
+}
+
 /// Whether its course meets one that it was not compared with, as that was over or had gone on to
 /// cells out of sight. Both take a later event, of which the cell tells where the other body is.
 bool Slabs::meets_unseen(const Courses::Late& late, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
-  const auto radius = 2 + static_cast<std::uint32_t>(std::ceil(static_cast<double>(
-                              speed * (shared_.end - late.from) / Real(grid.side()))));
-  const std::uint32_t column = late.place.column, row = late.place.row;
+  const CellGrid::Range range = range_of(late, speed);
   const Real end = std::min(end_of(late), shared_.end);
-  const std::uint32_t column_end = std::min(grid.columns(), column + radius + 1),
-                      row_end = std::min(grid.rows(), row + radius + 1);
   bool meets = false;
-  for (std::uint32_t r = row - std::min(row, radius); r < row_end; ++r)
-    for (std::uint32_t c = column - std::min(column, radius); c < column_end; ++c) {
-      if (!(shared_.played[std::size_t{r} * grid.columns() + c] > late.from)) continue;
-      grid.within({c, r, c, r},
+  for (std::uint32_t row = range.row_low; row <= range.row_high; ++row)
+    for (std::uint32_t column = range.column_low; column <= range.column_high; ++column) {
+      if (!(shared_.played[std::size_t{row} * grid.columns() + column] > late.from)) continue;
+      grid.within({column, row, column, row},
                   [&](std::uint32_t other) { meets = meets || meets_unseen(late, other, end); });
     }
   return meets;

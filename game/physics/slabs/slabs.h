@@ -36,8 +36,8 @@
 // Check. Within one tile and pass events come in order, so only what was put off can be late: a
 // cell next to its own has seen a later event. Its courses, until their next events, are compared
 // with all replaced courses that end after it, and with the present ones, for a crossing may have
-// taken somebody out of sight too early. They belong to bodies that are listed within vT/c cells
-// and two, v being the greatest speed in the window, T what is left of it and c a cell's side. All
+// taken somebody out of sight too early. They belong to bodies that are listed within vT
+// and a reach of it, v being the greatest speed in the window and T what is left of it. All
 // have had a later event, so only cells that have seen one are searched. A crossing marks both its
 // cells, so nobody has left the neighbourhood unseen. The block radius changes how much is put off
 // and how often the check fails, never the result.
@@ -113,6 +113,7 @@ class Slabs {
   void be_patient(bool was_good);
   bool was_worth_it() const;
   void begin_window(Real end);
+  int tile_side() const;
   void play_passes();
   void play_tiles();
   void play_pass(const Pass& pass, std::span<const std::uint32_t> bodies);
@@ -120,6 +121,7 @@ class Slabs {
   void play_listed(const Pass& pass, Tile& tile, std::uint32_t number);
   void take_put_off();
   bool is_right() const;
+  CellGrid::Range range_of(const Courses::Late& late, Real speed) const;
   bool meets_unseen(const Courses::Late& late, Real speed) const;
   bool meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const;
   bool meets_by(const Courses::Late& late, const Course& other, Real end) const;
@@ -150,6 +152,7 @@ class Slabs {
   std::vector<std::uint32_t> due_, put_off_;       // when the window begins, by a pass
   std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
   std::vector<std::uint32_t> changed_;
+  int tile_side_ = 0;   // cells
   double share_ = 1.0;  // of the window's length that the plan says
   WorldMark before_;    // the window
   std::size_t events_before_ = 0;
