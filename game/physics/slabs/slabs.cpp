@@ -24,8 +24,10 @@ namespace {
 constexpr std::uint64_t at_once_max = Clock::endless_events / 2;
 /// The shortest window, in units of that in which a third of the pending events come.
 constexpr double least_window = 1.0 / 16.0;
-/// Windows get shorter by that where one had to be undone, and else longer, so that one in twenty
-/// is; not below that part of what the plan says.
+/// Where a window had to be undone, so many after it block a cell more around what is put off.
+/// Where one of these has to be undone, windows get shorter by that, and else longer; not below
+/// that part of what the plan says.
+constexpr std::uint32_t wider_windows = 256;
 constexpr double shorter = 0.8, longer = 1.01, least_share = 0.125;
 }  // namespace
 
@@ -90,7 +92,7 @@ bool Slabs::play_window(Real end) {
   play_passes();
   const bool was_right = is_right() && has_room(end, events_played());
   be_patient(was_right && was_worth_it());
-  share_ = was_right ? std::min(1.0, share_ * longer) : std::max(least_share, share_ * shorter);
+  adapt(was_right);
   was_right ? accept() : undo();
   return was_right;
 }
@@ -103,6 +105,18 @@ bool Slabs::was_worth_it() const {
   }
   return static_cast<double>(last_pass_->played()) <=
          plan_.last_pass_max * static_cast<double>(events);
+}
+
+/// To few windows that have to be undone, and few events put off.
+void Slabs::adapt(bool was_right) {
+  if (was_right) {
+    share_ = std::min(1.0, share_ * longer);
+    wider_ -= std::min(wider_, 1u);
+  } else if (wider_ == 0) {
+    wider_ = wider_windows;
+  } else {
+    share_ = std::max(least_share, share_ * shorter);
+  }
 }
 
 /// Where tiles are of no use it should cost little to find out.
@@ -142,7 +156,7 @@ void Slabs::begin_window(Real end) {
   tile_side_ = tile_side();
   ++shared_.number;
   shared_.begin = parts_.clock.now, shared_.end = end;
-  shared_.block_radius = plan_.block_radius;
+  shared_.block_radius = plan_.block_radius + (wider_ > 0 ? 1 : 0);
   before_ = engine_.mark();
   books_.begin_window();
   events_before_ = parts_.record.events().size();

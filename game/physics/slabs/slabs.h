@@ -110,6 +110,7 @@ class Slabs {
   bool has_room(Real end, std::uint64_t events) const;
   std::uint64_t events_played() const;
   bool play_window(Real end);
+  void adapt(bool was_right);
   void be_patient(bool was_good);
   bool was_worth_it() const;
   void begin_window(Real end);
@@ -152,9 +153,10 @@ class Slabs {
   std::vector<std::uint32_t> due_, put_off_;       // when the window begins, by a pass
   std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
   std::vector<std::uint32_t> changed_;
-  int tile_side_ = 0;   // cells
-  double share_ = 1.0;  // of the window's length that the plan says
-  WorldMark before_;    // the window
+  int tile_side_ = 0;        // cells
+  std::uint32_t wider_ = 0;  // windows that block a cell more: still
+  double share_ = 1.0;       // of the window's length that the plan says
+  WorldMark before_;         // the window
   std::size_t events_before_ = 0;
   std::uint32_t in_order_ = 0,
                 in_order_last_ = 0;  // windows to be played in order: still, at first

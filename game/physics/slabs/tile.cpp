@@ -55,22 +55,28 @@ bool Tile::play_first_of_all(std::uint32_t body) {
   return play_event(encounter_of(body, events_.time(body)));
 }
 
-/// Closes the cells next to which another tile plays.
+/// Closes the cells next to which another tile plays, and to impacts those next to which it may
+/// have put one off.
 void Tile::open(const CellRange& range) {
   range_ = range;
   blocked_.assign(std::size_t{range.columns()} * range.rows(), Blocked::for_nobody);
+  close(1, Blocked::for_all);
+  close(shared_.block_radius, Blocked::for_impacts);
+}
+
+/// So many cells along the edges, but for those of the field.
+void Tile::close(int margin, Blocked whom) {
+  const CellRange& range = range_;
   const CellGrid& grid = places_.grid();
-  const int margin = std::max(1, shared_.block_radius), columns = static_cast<int>(grid.columns()),
-            rows = static_cast<int>(grid.rows());
-  const auto close = [&](const CellRange& cells) { block(cells, Blocked::for_all); };
+  const int columns = static_cast<int>(grid.columns()), rows = static_cast<int>(grid.rows());
   if (range.first_column > 0)
-    close({range.first_column, range.first_row, range.first_column + margin, range.end_row});
+    block({range.first_column, range.first_row, range.first_column + margin, range.end_row}, whom);
   if (range.end_column < columns)
-    close({range.end_column - margin, range.first_row, range.end_column, range.end_row});
+    block({range.end_column - margin, range.first_row, range.end_column, range.end_row}, whom);
   if (range.first_row > 0)
-    close({range.first_column, range.first_row, range.end_column, range.first_row + margin});
+    block({range.first_column, range.first_row, range.end_column, range.first_row + margin}, whom);
   if (range.end_row < rows)
-    close({range.first_column, range.end_row - margin, range.end_column, range.end_row});
+    block({range.first_column, range.end_row - margin, range.end_column, range.end_row}, whom);
 }
 
 /// Asks the processor for what the events will look at: all that is in the tile, or around `bodies`

@@ -99,6 +99,7 @@ class Tile {
   };
 
   void open(const CellRange& range);
+  void close(int margin, Blocked whom);
   void fetch(std::span<const std::uint32_t> bodies);
   void fetch_all();
   void fetch(std::uint32_t body) const;
