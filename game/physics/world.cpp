@@ -96,8 +96,10 @@ std::span<const BodyId> World::changed(ChangeCursor& cursor) const {
 }
 
 RealVector World::position(BodyId body) const {
-  const Motion m = motion(body);
-  return is_in_play(body) ? m.at(engine_->clock().now).position : m.position;
+  assert(body.index < body_count());
+  const Body& b = engine_->bodies()[body.index];
+  if (b.is(Body::gone)) return {b.x, b.y};
+  return position_at(engine_->bodies(), body.index, engine_->clock().now);
 }
 
 RealVector World::velocity(BodyId body) const {
@@ -115,7 +117,8 @@ Real World::radius(BodyId body) const {
   return engine_->bodies()[body.index].radius;
 }
 RealVector World::half_extent(BodyId body) const {
-  return engine_->bodies().build(body.index).half_extent + RealVector::Constant(radius(body));
+  assert(body.index < body_count());
+  return extent_of(engine_->bodies(), body.index);
 }
 Real World::mass(BodyId body) const {
   assert(body.index < body_count());

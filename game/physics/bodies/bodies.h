@@ -166,6 +166,15 @@ inline Motion motion_at(const Bodies& bodies, std::uint32_t body, Real time) {
   return bodies.motion(body).at(time);
 }
 
+/// The position of motion_at(), bit for bit; of a body in straight flight it takes a quarter of the
+/// instructions.
+inline RealVector position_at(const Bodies& bodies, std::uint32_t body, Real time) {
+  const Body& b = bodies[body];
+  if (b.is(Body::curved) || bodies.is_slowed()) return motion_at(bodies, body, time).position;
+  const Real s = warp_unaccelerated(time - b.time, bodies.own_drag(body)).s;
+  return {b.x + b.vx * s + 0.0, b.y + b.vy * s + 0.0};  // -0 becomes 0, as there
+}
+
 /// Whether it is at rest, and will be until something acts on it.
 inline bool is_still(const Bodies& bodies, std::uint32_t body) {
   return bodies.velocity(body) == RealVector(0.0, 0.0) &&
@@ -183,6 +192,11 @@ Real energy_of(const Bodies& bodies, std::uint32_t body);
 
 /// What the law of the body has cost since its last event, at `time`.
 EnergyTransfer energy_transfer_until(const Bodies& bodies, std::uint32_t body, Real time);
+
+/// From its centre to the sides of its bounding box.
+inline RealVector extent_of(const Bodies& bodies, std::uint32_t body) {
+  return bodies.build(body).half_extent + RealVector::Constant(bodies[body].radius);
+}
 
 /// Half extents and radii of both, as one shape around the centre of one.
 inline RoundedBox shape_of(const Bodies& bodies, std::uint32_t a, std::uint32_t b) {

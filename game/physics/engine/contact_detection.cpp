@@ -14,7 +14,7 @@ ContactDetection::ContactDetection(const WorldSpec& spec, const Bodies& bodies,
 RealVector ContactDetection::position_at(std::uint32_t body, Real time) const {
   const Body& b = bodies_[body];
   return b.time >= time || b.kind == BodyKind::post ? RealVector(b.x, b.y)
-                                                    : motion_at(bodies_, body, time).position;
+                                                    : physics::position_at(bodies_, body, time);
 }
 
 Contact ContactDetection::contact(std::uint32_t body, Partner p, Real time) const {

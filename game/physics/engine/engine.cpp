@@ -55,13 +55,9 @@ Engine::Engine(const WorldSpec& spec)
             spec.restitution.material_count())));
 }
 
-RealVector Engine::extent_of(std::uint32_t body) const {
-  return bodies_.build(body).half_extent + RealVector::Constant(bodies_[body].radius);
-}
-
 /// In a grid made anew if this one has no room for one of its size.
 void Engine::list(std::uint32_t body, const RealVector& position) {
-  const RealVector extent = extent_of(body);
+  const RealVector extent = extent_of(bodies_, body);
   if (places_.fits(bodies_.count(), extent.maxCoeff()))
     return places_.insert(body, position, extent);
   places_.fit(bodies_.count(), extent.maxCoeff());
@@ -123,11 +119,11 @@ void Engine::rebuild_grid() {
   SizeClasses sizes;
   for (std::uint32_t body = 0; body < bodies_.count(); ++body)
     if (!bodies_[body].is(Body::removed))
-      sizes.add(static_cast<double>(extent_of(body).maxCoeff()));
+      sizes.add(static_cast<double>(extent_of(bodies_, body).maxCoeff()));
   places_.rebuild(bodies_.count(), sizes);
   for (std::uint32_t body = 0; body < bodies_.count(); ++body) {
     if (bodies_[body].is(Body::gone)) continue;
-    places_.insert(body, motion_at(bodies_, body, clock_.now).position, extent_of(body));
+    places_.insert(body, position_at(bodies_, body, clock_.now), extent_of(bodies_, body));
     require_prediction(body);
   }
   is_everything_pending_ = true;

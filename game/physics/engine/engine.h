@@ -108,7 +108,6 @@ class Engine {
 
  private:
   // engine.cpp: bodies and the loop
-  RealVector extent_of(std::uint32_t body) const;
   void list(std::uint32_t body, const RealVector& position);
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);

@@ -25,7 +25,7 @@ void Engine::put(std::uint32_t body, const BodyState& state) {
   places_.remove(body);
   events_.drop(body);
   if (bodies_[body].is(Body::gone)) return;
-  list(body, motion_at(bodies_, body, clock_.now).position);
+  list(body, position_at(bodies_, body, clock_.now));
   if (!bodies_.is_fixed(body)) return require_prediction(body);
   // Posts look at nobody: those who are there must look at it.
   for (std::uint32_t other = 0; other < bodies_.count(); ++other)

@@ -29,7 +29,7 @@ bool is_free(const Present& present, const RealVector& centre, const RoundedBox&
   grid.within(cells, [&](std::uint32_t body) {
     const RoundedBox both{bodies.build(body).half_extent + shape.half_extent,
                           bodies[body].radius + shape.radius};
-    is_clear = is_clear && both.gap(centre - motion_at(bodies, body, now).position).distance >= 0.0;
+    is_clear = is_clear && both.gap(centre - position_at(bodies, body, now)).distance >= 0.0;
   });
   return is_clear;
 }
@@ -77,9 +77,7 @@ Real max_overlap(const Present& present) {
   Real deepest = 0.0;
   for (std::uint32_t body = 0; body < bodies.count(); ++body) {
     if (bodies[body].is(Body::gone) || bodies[body].kind == BodyKind::post) continue;
-    const RealVector position = motion_at(bodies, body, now).position;
-    const RealVector extent =
-        bodies.build(body).half_extent + RealVector::Constant(bodies[body].radius);
+    const RealVector position = position_at(bodies, body, now), extent = extent_of(bodies, body);
     const Real end =
         bodies[body].mouth == Body::no_mouth
             ? std::min(position.x() - extent.x(), field.length - extent.x() - position.x())
@@ -89,7 +87,7 @@ Real max_overlap(const Present& present) {
     grid.around(body, [&](std::uint32_t other) {
       if (other != body)
         deepest = std::max(deepest, -shape_of(bodies, body, other)
-                                         .gap(position - motion_at(bodies, other, now).position)
+                                         .gap(position - position_at(bodies, other, now))
                                          .distance);
     });
   }
