@@ -87,16 +87,19 @@ class CellLists {
   }
   /// Copies the numbers in the nine cells around one to `list`, and returns how many.
   std::uint32_t collect_nine(std::size_t middle, std::uint32_t* list) const {
-    std::uint32_t* end = list;
-    for (const std::size_t row : {middle - pitch_, middle, middle + pitch_})
-      for (std::size_t cell = row - 1; cell <= row + 1; ++cell) end = append(cell, end);
+    const std::size_t stride = stride_, pitch = pitch_ * stride;
+    const std::uint32_t* const from = &lists_[middle * stride];
+    std::uint32_t* end = append_row(from - pitch, stride, list);
+    end = append_row(from, stride, end);
+    end = append_row(from + pitch, stride, end);
     return static_cast<std::uint32_t>(end - list);
   }
   /// Those in a cell and the two beside it as seen in the direction.
   std::uint32_t collect_three(std::size_t middle, Direction direction, std::uint32_t* list) const {
-    const std::size_t across = direction <= right ? pitch_ : 1;
+    const std::size_t across = (direction <= right ? pitch_ : 1) * stride_;
+    const std::uint32_t* const from = &lists_[middle * stride_];
     return static_cast<std::uint32_t>(
-        append(middle + across, append(middle, append(middle - across, list))) - list);
+        append(from + across, append(from, append(from - across, list))) - list);
   }
 
   /// Ask the processor to fetch a cell, or what collect_nine() and collect_three() would read.
@@ -114,11 +117,19 @@ class CellLists {
   static constexpr std::uint32_t few = 7, stride_min = few + 1;
 
   std::uint32_t room_for_nine() const { return 9 * stride_ + few; }
-  std::uint32_t* append(std::size_t cell, std::uint32_t* list) const {
-    const std::uint32_t* from = &lists_[cell * stride_];
+  // Where lists begin is handed in: what is written might be stride_, for all that the compiler
+  // knows, which would be read anew for each.
+  static std::uint32_t* append(const std::uint32_t* from, std::uint32_t* list) {
+    const std::uint32_t count = from[0];
     std::memcpy(list, from + 1, few * sizeof *from);  // places at once, taken or not
-    if (from[0] > few) std::copy_n(from + 1 + few, from[0] - few, list + few);
-    return list + from[0];
+    if (count > few) [[unlikely]]
+      std::copy_n(from + 1 + few, count - few, list + few);
+    return list + count;
+  }
+  /// A cell and those to its left and right.
+  static std::uint32_t* append_row(const std::uint32_t* from, std::size_t stride,
+                                   std::uint32_t* list) {
+    return append(from + stride, append(from, append(from - stride, list)));
   }
   void widen();
 
