@@ -45,6 +45,8 @@ class NextEvents {
 
   const NextEvent& operator[](std::uint32_t body) const { return slots_[body]; }
   NextEvent& slot(std::uint32_t body) { return slots_[body]; }
+  /// So many bodies are about to get events.
+  void expect(std::size_t event_count) { schedule_.expect(event_count); }
   /// The body's event is what its slot says.
   void schedule(std::uint32_t body) {
     const EventOrder order = order_of(body);

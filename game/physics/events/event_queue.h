@@ -29,7 +29,13 @@ class EventQueue {
   static constexpr std::uint32_t none = 0xffffffff;
 
   /// Makes room for bodies 0 .. count-1; new ones have no event.
-  void resize(std::uint32_t count) { entries_.resize(count); }
+  void resize(std::uint32_t count) {
+    entries_.resize(count);
+    later_.reserve(entries_.capacity());  // at first most events are there
+  }
+  /// So many bodies are about to get events: buckets for all are made at once, where they would be
+  /// made anew at each doubling.
+  void expect(std::size_t event_count);
   /// Gives `body` its event at `time` [s], ordered among equal times by `lower`, then `higher`.
   /// Infinity takes it out.
   void set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher);

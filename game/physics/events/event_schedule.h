@@ -30,6 +30,10 @@ class EventSchedule {
   void resize(std::uint32_t count) {
     ask(*this, [&](auto& queue) { queue.resize(count); });
   }
+  /// So many bodies are about to get events.
+  void expect(std::size_t event_count) {
+    if (policy_ == QueuePolicy::calendar) calendar_.expect(event_count);
+  }
   void set(std::uint32_t body, Real time, std::uint32_t lower, std::uint32_t higher) {
     ask(*this, [&](auto& queue) { queue.set(body, time, lower, higher); });
   }

@@ -49,6 +49,26 @@ class PairedEvents {
   std::uint64_t taken_ = 0;
 };
 
+TEST(EventQueue, ThatIsToldHowManyEventsComeTakesThemInTheSameOrder) {
+  EventQueue told, untold;
+  std::mt19937_64 random(4);
+  told.resize(body_count), untold.resize(body_count);
+  told.expect(body_count);
+  for (std::uint32_t body = 0; body < body_count; ++body) {
+    const double time = test::uniform(random, 0.0, 2.0);
+    told.set(body, time, body, body), untold.set(body, time, body, body);
+  }
+  told.expect(body_count);  // nothing is lost where some are there already
+  for (std::uint32_t k = 0; k < body_count; ++k) {
+    const std::uint32_t body = told.first(2.0);
+    ASSERT_EQ(body, untold.first(2.0));
+    ASSERT_NE(body, EventQueue::none);
+    for (EventQueue* queue : {&told, &untold})
+      queue->set(body, std::numeric_limits<double>::infinity(), body, body);
+  }
+  EXPECT_EQ(told.first(1e9), EventQueue::none);
+}
+
 TEST(EventQueue, IsNotMisledByManyQuestionsBetweenTwoEventsOfAPair) {
   PairedEvents events;
   events.take(20'000);
