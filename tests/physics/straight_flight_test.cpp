@@ -104,6 +104,29 @@ TEST(FirstMeeting, CountsThoseWhoTouchInTheSameBreath) {
   EXPECT_GT(apart, 20'000u);
 }
 
+TEST(FirstMeeting, OfEachOfManyHasTheBitsOfThoseAskedOneByOne) {
+  if (!visits_meetings()) GTEST_SKIP() << "this processor takes two at a time at most";
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::mt19937_64 random(10);
+  std::uint32_t met = 0;
+  for (int round = 0; round < 5'000; ++round) {
+    const auto count = static_cast<std::uint32_t>(random() % (flight_max + 1));
+    const std::vector<Flight> discs = crowd_of(random, count + 1);
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t k = 1; k <= count; ++k) near.push_back(k);
+    near.resize(flight_max + 8);
+    std::vector<double> times(count + 1, never);
+    visit_meetings(discs.data(), 0, near.data(), count,
+                   [&](std::uint32_t other, double time) { times[other] = time; });
+    for (std::uint32_t k = 1; k <= count; ++k) {
+      ASSERT_EQ(times[k], disc_contact_time(discs[0], discs[k], never).value_or(never));
+      ASSERT_EQ(times[k], disc_contact_time(discs[k], discs[0], never).value_or(never));
+      met += times[k] < never;
+    }
+  }
+  EXPECT_GT(met, 5'000u);
+}
+
 /// Discs that graze each other at a gap of some roundings: what the best event known happens to be
 /// decides nothing but whether the meeting comes too late.
 TEST(FirstMeeting, OfThoseWhoGrazeDoesNotDependOnHowFarOneLooks) {

@@ -143,28 +143,17 @@ void Engine::require_prediction(std::uint32_t body) {
   pending_.push_back(body);
 }
 
-/// Where everything is predicted anew, whoever moves finds those who rest; these need not look for
-/// themselves.
 void Engine::predict_pending() {
   if (2 * pending_.size() > bodies_.count()) rebuild_grid();
-  for (const std::uint32_t body : pending_) {
-    bodies_.clear_flags(body, Body::pending);
-    if (bodies_[body].is(Body::gone)) continue;
-    if (!is_everything_pending_ || !is_left_alone(body)) {
-      prediction_.predict(body);
-    } else {
-      events_.drop(body);
-    }
+  for (const std::uint32_t body : pending_) bodies_.clear_flags(body, Body::pending);
+  if (is_everything_pending_) {
+    prediction_.predict_all(pending_);
+  } else {
+    for (const std::uint32_t body : pending_)
+      if (!bodies_[body].is(Body::gone)) prediction_.predict(body);
   }
   pending_.clear();
   is_everything_pending_ = false;
-}
-
-/// At rest by itself: it has no event before somebody else's.
-bool Engine::is_left_alone(std::uint32_t body) const {
-  const Body& b = bodies_[body];
-  return b.vx == 0.0 && b.vy == 0.0 && (b.flags & Body::held) == 0 &&
-         bodies_.law(body).acceleration == RealVector(0.0, 0.0);
 }
 
 void Engine::remove(std::uint32_t body) {

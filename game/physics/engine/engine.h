@@ -112,7 +112,6 @@ class Engine {
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
   void require_prediction(std::uint32_t body);
-  bool is_left_alone(std::uint32_t body) const;
   [[gnu::always_inline]] inline void cross_cell(std::uint32_t body);
   /// As process(body, time of its event), which is then charged.
   void process(std::uint32_t body, EventBudget& budget);

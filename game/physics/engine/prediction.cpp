@@ -47,9 +47,8 @@ void Prediction::predict_beyond(std::uint32_t body, CellGrid::Direction directio
   events_.schedule(body);
 }
 
-/// Forgets what was known, asks the field, and makes all who are near candidates; returns how many,
-/// the body itself among them.
-std::uint32_t Prediction::begin(std::uint32_t body) {
+/// Forgets what was known, and asks the field.
+void Prediction::begin_alone(std::uint32_t body) {
   NextEvent& slot = events_.slot(body);
   slot.impact_time = infinity;
   slot.partner = partner::none;
@@ -62,6 +61,11 @@ std::uint32_t Prediction::begin(std::uint32_t body) {
     predict_field(body);
     if (b.is(Body::curved)) predict_curved_crossing(body);
   }
+}
+
+/// The same, and makes all who are near candidates; returns how many, the body itself among them.
+std::uint32_t Prediction::begin(std::uint32_t body) {
+  begin_alone(body);
   --counters_.predictions;  // of the body with itself
   return grid_.collect(body, room_for_candidates());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "game/physics/bodies/bodies.h"
@@ -35,6 +36,9 @@ class Prediction {
   Prediction& operator=(const Prediction&) = delete;
 
   void predict(std::uint32_t body);
+  /// All of `bodies` that are in play, which are all there are. Whoever moves finds those who rest;
+  /// these need not look for themselves.
+  void predict_all(std::span<const std::uint32_t> bodies);
   /// As predict() and predict_beyond(), but for telling the schedule.
   void look(std::uint32_t body) { predict_pairs(body, begin(body)); }
   void look_beyond(std::uint32_t body, CellGrid::Direction direction) {
@@ -56,7 +60,11 @@ class Prediction {
     if (candidates_.size() < grid_.collected_max()) candidates_.resize(grid_.collected_max());
     return candidates_.data();
   }
+  void begin_alone(std::uint32_t body);
   std::uint32_t begin(std::uint32_t body);
+  bool is_left_alone(std::uint32_t body) const;
+  bool may_ask_pairs_once() const;
+  void ask_pairs_once();
   bool sees_curves(std::uint32_t count) const;
   void predict_field(std::uint32_t body);
   void predict_flight(std::uint32_t body);

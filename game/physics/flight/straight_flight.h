@@ -184,43 +184,75 @@ struct FourPlaces {
   first = _mm256_unpacklo_pd(even, odd), second = _mm256_unpackhi_pd(even, odd);
 }
 
+/// A disc, four times.
+struct FourTimes {
+  __m256d x, y, vx, vy, time, radius;
+};
+template <class Disc>
+[[gnu::target("avx2"), gnu::always_inline]] inline FourTimes four_times(const Disc& disc) {
+  return {_mm256_set1_pd(disc.x),  _mm256_set1_pd(disc.y),    _mm256_set1_pd(disc.vx),
+          _mm256_set1_pd(disc.vy), _mm256_set1_pd(disc.time), _mm256_set1_pd(disc.radius)};
+}
+
+/// When one disc meets four, infinite for never, and the squares of their distances at the later of
+/// the two events, less those of their reaches.
+struct FourMeetings {
+  __m256d time, gap, reach;
+};
+/// As of disc_contact_time(), the four being the next of `near` in `discs`.
+template <class Disc>
+[[gnu::target("avx2"), gnu::always_inline]] inline FourMeetings meetings_with_four(
+    const FourTimes& a, const Disc* discs, const std::uint32_t* near, const __m256d& latest) {
+  const Disc &b = discs[near[0]], &c = discs[near[1]], &d = discs[near[2]], &e = discs[near[3]];
+  __m256d bx, by, vx, vy, b_time, b_radius;
+  read_fours({&b.x, &c.x, &d.x, &e.x}, bx, by);
+  read_fours({&b.vx, &c.vx, &d.vx, &e.vx}, vx, vy);
+  read_fours({&b.time, &c.time, &d.time, &e.time}, b_time, b_radius);
+  const __m256d time = _mm256_max_pd(a.time, b_time), ahead_a = _mm256_sub_pd(time, a.time),
+                ahead_b = _mm256_sub_pd(time, b_time), zero = _mm256_setzero_pd();
+  const __m256d x =
+      _mm256_add_pd(_mm256_sub_pd(bx, a.x),
+                    _mm256_sub_pd(_mm256_mul_pd(vx, ahead_b), _mm256_mul_pd(a.vx, ahead_a)));
+  const __m256d y =
+      _mm256_add_pd(_mm256_sub_pd(by, a.y),
+                    _mm256_sub_pd(_mm256_mul_pd(vy, ahead_b), _mm256_mul_pd(a.vy, ahead_a)));
+  const __m256d wx = _mm256_sub_pd(vx, a.vx), wy = _mm256_sub_pd(vy, a.vy),
+                reach = _mm256_add_pd(a.radius, b_radius);
+  const __m256d opening = _mm256_add_pd(_mm256_mul_pd(x, wx), _mm256_mul_pd(y, wy)),
+                square = _mm256_add_pd(_mm256_mul_pd(wx, wx), _mm256_mul_pd(wy, wy));
+  const __m256d gap = _mm256_sub_pd(_mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)),
+                                    _mm256_mul_pd(reach, reach));
+  const __m256d miss = _mm256_sub_pd(_mm256_mul_pd(x, wy), _mm256_mul_pd(y, wx)),
+                speed_reach = _mm256_mul_pd(_mm256_sqrt_pd(square), reach);
+  const __m256d discriminant = _mm256_mul_pd(_mm256_sub_pd(speed_reach, miss),
+                                             _mm256_add_pd(speed_reach, miss)),
+                is_now = _mm256_cmp_pd(gap, zero, _CMP_LE_OQ);
+  // Who passes by has no root, and waits for no number.
+  const __m256d wait =
+      _mm256_div_pd(gap, _mm256_add_pd(_mm256_sub_pd(zero, opening), _mm256_sqrt_pd(discriminant)));
+  const __m256d in_time =
+      _mm256_or_pd(is_now, _mm256_cmp_pd(wait, _mm256_sub_pd(latest, time), _CMP_LE_OQ));
+  const __m256d is_meeting = _mm256_and_pd(_mm256_cmp_pd(opening, zero, _CMP_LT_OQ), in_time);
+  return {_mm256_blendv_pd(_mm256_set1_pd(std::numeric_limits<double>::infinity()),
+                           _mm256_add_pd(time, _mm256_andnot_pd(is_now, wait)), is_meeting),
+          gap, reach};
+}
+
 /// The same bits four at a time, in one pass: so many roots cost less than to find out who needs
 /// one. Who touches is told, and places that fill up fours are not counted, if `counts`.
 template <bool counts, class Disc>
 [[gnu::target("avx2")]] FirstContact first_disc_contact_in_fours(
     const Disc* discs, std::uint32_t own, std::uint32_t* near, std::uint32_t count, double latest) {
-  const Disc& a = discs[own];
   if ((count & 3) != 0)
     near[count] = near[count + 1] = near[count + 2] = own;  // nobody closes on himself
-  const __m256d ax = _mm256_set1_pd(a.x), ay = _mm256_set1_pd(a.y), avx = _mm256_set1_pd(a.vx),
-                avy = _mm256_set1_pd(a.vy), a_time = _mm256_set1_pd(a.time);
-  const __m256d a_radius = _mm256_set1_pd(a.radius), limit = _mm256_set1_pd(latest),
-                zero = _mm256_setzero_pd(),
+  const FourTimes a = four_times(discs[own]);
+  const __m256d limit = _mm256_set1_pd(latest),
                 never = _mm256_set1_pd(std::numeric_limits<double>::infinity());
   __m256d first = never, second = never;
   __m256i touching = _mm256_setzero_si256();  // counted downwards
   __m256i places = _mm256_setr_epi64x(0, 1, 2, 3), others = places;
   for (std::uint32_t k = 0; k < count; k += 4) {
-    const Disc &b = discs[near[k]], &c = discs[near[k + 1]], &d = discs[near[k + 2]],
-               &e = discs[near[k + 3]];
-    __m256d bx, by, vx, vy, b_time, b_radius;
-    read_fours({&b.x, &c.x, &d.x, &e.x}, bx, by);
-    read_fours({&b.vx, &c.vx, &d.vx, &e.vx}, vx, vy);
-    read_fours({&b.time, &c.time, &d.time, &e.time}, b_time, b_radius);
-    const __m256d time = _mm256_max_pd(a_time, b_time), ahead_a = _mm256_sub_pd(time, a_time),
-                  ahead_b = _mm256_sub_pd(time, b_time);
-    const __m256d x =
-        _mm256_add_pd(_mm256_sub_pd(bx, ax),
-                      _mm256_sub_pd(_mm256_mul_pd(vx, ahead_b), _mm256_mul_pd(avx, ahead_a)));
-    const __m256d y =
-        _mm256_add_pd(_mm256_sub_pd(by, ay),
-                      _mm256_sub_pd(_mm256_mul_pd(vy, ahead_b), _mm256_mul_pd(avy, ahead_a)));
-    const __m256d wx = _mm256_sub_pd(vx, avx), wy = _mm256_sub_pd(vy, avy),
-                  reach = _mm256_add_pd(a_radius, b_radius);
-    const __m256d opening = _mm256_add_pd(_mm256_mul_pd(x, wx), _mm256_mul_pd(y, wy)),
-                  square = _mm256_add_pd(_mm256_mul_pd(wx, wx), _mm256_mul_pd(wy, wy));
-    const __m256d gap = _mm256_sub_pd(_mm256_add_pd(_mm256_mul_pd(x, x), _mm256_mul_pd(y, y)),
-                                      _mm256_mul_pd(reach, reach));
+    const auto [found, gap, reach] = meetings_with_four(a, discs, near + k, limit);
     // (r + c)^2 - r^2
     if constexpr (counts) {
       const __m256d close =
@@ -229,19 +261,6 @@ template <bool counts, class Disc>
       touching =
           _mm256_add_epi64(touching, _mm256_castpd_si256(_mm256_cmp_pd(gap, close, _CMP_LE_OQ)));
     }
-    const __m256d miss = _mm256_sub_pd(_mm256_mul_pd(x, wy), _mm256_mul_pd(y, wx)),
-                  speed_reach = _mm256_mul_pd(_mm256_sqrt_pd(square), reach);
-    const __m256d discriminant = _mm256_mul_pd(_mm256_sub_pd(speed_reach, miss),
-                                               _mm256_add_pd(speed_reach, miss)),
-                  is_now = _mm256_cmp_pd(gap, zero, _CMP_LE_OQ);
-    // Who passes by has no root, and waits for no number.
-    const __m256d wait = _mm256_div_pd(
-        gap, _mm256_add_pd(_mm256_sub_pd(zero, opening), _mm256_sqrt_pd(discriminant)));
-    const __m256d in_time =
-        _mm256_or_pd(is_now, _mm256_cmp_pd(wait, _mm256_sub_pd(limit, time), _CMP_LE_OQ));
-    const __m256d is_meeting = _mm256_and_pd(_mm256_cmp_pd(opening, zero, _CMP_LT_OQ), in_time);
-    const __m256d found =
-        _mm256_blendv_pd(never, _mm256_add_pd(time, _mm256_andnot_pd(is_now, wait)), is_meeting);
     const __m256d is_earlier = _mm256_cmp_pd(found, first, _CMP_LT_OQ);
     second = _mm256_min_pd(second, _mm256_max_pd(first, found));
     others = _mm256_castpd_si256(
@@ -281,6 +300,28 @@ template <bool counts, class Disc>
   return contact;
 }
 
+/// Calls `visit(other, time)` for each of `count` discs of `near` that the disc `own` ever meets,
+/// with the time of disc_contact_time(). `near` must be writable three places beyond its end.
+template <class Disc, class Visit>
+[[gnu::target("avx2")]] void visit_meetings_in_fours(const Disc* discs, std::uint32_t own,
+                                                     std::uint32_t* near, std::uint32_t count,
+                                                     Visit&& visit) {
+  near[count] = near[count + 1] = near[count + 2] = own;  // nobody closes on himself
+  const FourTimes a = four_times(discs[own]);
+  const __m256d never = _mm256_set1_pd(std::numeric_limits<double>::infinity());
+  for (std::uint32_t k = 0; k < count; k += 4) {
+    const __m256d found = meetings_with_four(a, discs, near + k, never).time;
+    auto lanes = static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(found, never, _CMP_LT_OQ)));
+    if (lanes == 0) continue;
+    alignas(32) double times[4];
+    _mm256_store_pd(times, found);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+      visit(near[k + lane], times[lane]);
+    }
+  }
+}
+
 /// Whether this machine can do more than its baseline says.
 inline const bool has_fours = __builtin_cpu_supports("avx2") != 0;
 
@@ -305,6 +346,24 @@ inline bool counts_touching() {
   return has_fours;
 #else
   return false;
+#endif
+}
+
+/// Whether visit_meetings() is there.
+inline bool visits_meetings() { return counts_touching(); }
+
+/// As visit_meetings_in_fours().
+template <class Disc, class Visit>
+void visit_meetings(const Disc* discs, std::uint32_t own, std::uint32_t* near, std::uint32_t count,
+                    Visit&& visit) {
+  assert(visits_meetings());
+#if defined(RINK_PAIRS_SCALARS)
+  visit_meetings_in_fours(discs, own, near, count, visit);
+#else
+  for (std::uint32_t k = 0; k < count; ++k)
+    if (const auto time =
+            disc_contact_time(discs[own], discs[near[k]], std::numeric_limits<Real>::infinity()))
+      visit(near[k], *time);
 #endif
 }
 

@@ -95,7 +95,7 @@ std::uint32_t CellGrid::collect_all_sizes(std::uint32_t body, std::uint32_t* lis
     within(wide_[slot_of(body)].block, [&](std::uint32_t other) { *end++ = other; });
   } else {
     end += cells_.collect_nine(cell_of(body), list);
-    wide_.visit_in(column_of(body), row_of(body),
+    wide_.visit_in(places_[body].column, places_[body].row,
                    [&](const WideBodies::Wide& wide) { *end++ = wide.body; });
   }
   return static_cast<std::uint32_t>(end - list);

@@ -92,8 +92,6 @@ class CellGrid {
   Place place_meanwhile(std::uint32_t body) const {
     return std::atomic_ref(const_cast<Place&>(places_[body])).load(std::memory_order_relaxed);
   }
-  std::uint32_t column_of(std::uint32_t body) const { return places_[body].column; }
-  std::uint32_t row_of(std::uint32_t body) const { return places_[body].row; }
   /// Where a body leaves its cell downwards (`is_high` 0) and upwards (1) along an axis; infinite
   /// at the rim.
   double column_edge(std::uint32_t column, bool is_high) const {
@@ -120,6 +118,19 @@ class CellGrid {
     return cells_.collect_three(cells_.neighbour(to, direction), direction, list);
   }
 
+  /// Calls `visit(list, own, all)` for each cell that has small bodies: these are the first `own`
+  /// of the `all` that are on the list, and each pair of small ones in sight of each other is once
+  /// on a list with one of them among the `own`. The list is `room`, for collected_max().
+  template <class Visit>
+  void visit_pairs(std::uint32_t* room, Visit&& visit) const {
+    for (std::uint32_t row = 0; row < rows_; ++row)
+      for (std::uint32_t column = 0; column < columns_; ++column) {
+        const std::size_t cell = cells_.at(column, row);
+        const auto own = static_cast<std::uint32_t>(cells_[cell].size());
+        if (own > 0) visit(room, own, cells_.collect_onwards(cell, room));
+      }
+  }
+
   /// Ask the processor to fetch the place of `body`; of a small one also the cells that collect()
   /// would read, and those of a move() and collect_ahead().
   void prefetch_place(std::uint32_t body) const { prefetch(&places_[body]); }
@@ -142,7 +153,7 @@ class CellGrid {
   template <class Visit>
   void around(std::uint32_t body, Visit&& visit) const {
     if (is_wide(body)) return within(wide_[slot_of(body)].block, visit);
-    const std::uint32_t column = column_of(body), row = row_of(body);
+    const std::uint32_t column = places_[body].column, row = places_[body].row;
     within({column - std::min(column, 1u), row - std::min(row, 1u), column + 1, row + 1}, visit);
   }
   std::uint32_t columns() const { return columns_; }

@@ -80,7 +80,7 @@ class CellLists {
         for (const std::uint32_t number : (*this)[at(column, row)]) visit(number);
   }
 
-  /// Room that the next two need, or more.
+  /// Room that the next three need, or more.
   std::uint32_t collected_max() const { return collected_max_; }
   void require_room(std::uint32_t collected) {
     collected_max_ = std::max(collected_max_, collected);
@@ -91,6 +91,15 @@ class CellLists {
     const std::uint32_t* const from = &lists_[middle * stride];
     std::uint32_t* end = append_row(from - pitch, stride, list);
     end = append_row(from, stride, end);
+    end = append_row(from + pitch, stride, end);
+    return static_cast<std::uint32_t>(end - list);
+  }
+  /// Those in a cell, then those in the four of its neighbours that have higher numbers: of two
+  /// neighbours, one so lists the other's.
+  std::uint32_t collect_onwards(std::size_t cell, std::uint32_t* list) const {
+    const std::size_t stride = stride_, pitch = pitch_ * stride;
+    const std::uint32_t* const from = &lists_[cell * stride];
+    std::uint32_t* end = append(from + stride, append(from, list));
     end = append_row(from + pitch, stride, end);
     return static_cast<std::uint32_t>(end - list);
   }

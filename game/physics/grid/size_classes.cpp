@@ -2,8 +2,6 @@
 // wide.
 #include "game/physics/grid/size_classes.h"
 
-#include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -15,16 +13,6 @@ namespace {
 /// Wide ones take their part of memory and of the time of all that cross cells.
 constexpr std::uint32_t smalls_per_wide = 4;
 }  // namespace
-
-void SizeClasses::add(double reach) {
-  assert(reach >= 0.0);
-  constexpr int exponent_min = 1023 - 40;  // as it stands in a double: of 1e-12 m
-  const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(reach) >> 52);
-  Class& its = classes_[static_cast<std::size_t>(
-      std::clamp(exponent - exponent_min, 0, static_cast<int>(class_count) - 1))];
-  its.reach = std::max(its.reach, reach);
-  ++its.count;
-}
 
 std::uint32_t SizeClasses::count_from(std::size_t first) const {
   std::uint32_t count = 0;

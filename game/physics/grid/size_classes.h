@@ -1,7 +1,10 @@
 // How many bodies there are of each size, and which of them a grid should list in one cell each.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,7 +15,15 @@ namespace rink::physics {
 class SizeClasses {
  public:
   /// A body that reaches so far from its centre along some axis [m].
-  void add(double reach);
+  void add(double reach) {
+    assert(reach >= 0.0);
+    constexpr int exponent_min = 1023 - 40;  // as it stands in a double: of 1e-12 m
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(reach) >> 52);
+    Class& its = classes_[static_cast<std::size_t>(
+        std::clamp(exponent - exponent_min, 0, static_cast<int>(class_count) - 1))];
+    its.reach = std::max(its.reach, reach);
+    ++its.count;
+  }
 
   struct Choice {
     double reach = 0.0;            ///< how far those reach that stand in one cell, at most [m]

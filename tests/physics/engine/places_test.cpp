@@ -74,7 +74,8 @@ TEST(Places, ListEverybodyWhoMayTouchThroughRandomMoves) {
       if (to.minCoeff() < 0.0 || to.x() > 4.0 || to.y() > 2.0) continue;
       // The last cells are wider: there it may stay in its own.
       const CellGrid& grid = places.grid();
-      if (grid.column(to.x()) == grid.column_of(body) && grid.row(to.y()) == grid.row_of(body))
+      if (grid.column(to.x()) == grid.place(body).column &&
+          grid.row(to.y()) == grid.place(body).row)
         continue;
       at[body] = to;
       places.move(body, way);

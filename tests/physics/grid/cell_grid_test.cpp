@@ -60,7 +60,7 @@ TEST(CellGrid, SeesAheadExactlyThoseWhoCameIntoSightByACrossing) {
   for (int step = 0; step < 20'000; ++step) {
     const auto body = static_cast<std::uint32_t>(random() % 2'000);
     const auto direction = static_cast<CellGrid::Direction>(random() % 4);
-    const std::uint32_t column = crowd.grid.column_of(body), row = crowd.grid.row_of(body);
+    const std::uint32_t column = crowd.grid.place(body).column, row = crowd.grid.place(body).row;
     const bool is_rim[]{column == 0, column + 1 == columns, row == 0, row + 1 == rows};
     if (is_rim[direction]) continue;
     const std::vector<std::uint32_t> before = crowd.near(body);
@@ -75,6 +75,26 @@ TEST(CellGrid, SeesAheadExactlyThoseWhoCameIntoSightByACrossing) {
     seen += static_cast<int>(came.size());
   }
   EXPECT_GT(seen, 10'000);
+}
+
+TEST(CellGrid, VisitsEachPairInSightOnce) {
+  std::mt19937_64 random(3);
+  for (const std::uint32_t count : {1u, 30u, 400u}) {
+    const Crowd crowd(random, count, 3.0, 1.0, 0.1);
+    std::vector<std::vector<std::uint32_t>> seen(count);
+    for (std::uint32_t body = 0; body < count; ++body) seen[body].push_back(body);
+    std::vector<std::uint32_t> room(crowd.grid.collected_max());
+    crowd.grid.visit_pairs(room.data(),
+                           [&](const std::uint32_t* list, std::uint32_t own, std::uint32_t all) {
+                             for (std::uint32_t i = 0; i < own; ++i)
+                               for (std::uint32_t k = i + 1; k < all; ++k)
+                                 seen[list[i]].push_back(list[k]), seen[list[k]].push_back(list[i]);
+                           });
+    for (std::uint32_t body = 0; body < count; ++body) {
+      std::sort(seen[body].begin(), seen[body].end());
+      EXPECT_EQ(seen[body], crowd.near(body)) << body << " of " << count;
+    }
+  }
 }
 
 TEST(CellGrid, HoldsAnyNumberInOneCell) {
