@@ -148,9 +148,10 @@ void Prediction::predict_curved_walls(std::uint32_t body) {
   const RelativeMotion relative{still, moving};
   const RealVector extent = bodies_.build(body).half_extent + RealVector::Constant(b.radius);
   const auto predict_plane = [&](Partner wall) {
-    const auto time =
-        first_contact(relative, plane_of(field_, wall, extent, bodies_.build(body).half), b.time,
-                      events_[body].impact_time + Real(instant), tolerance_);
+    const HalfPlane plane = plane_of(field_, wall, extent, bodies_.build(body).half);
+    const Real limit = events_[body].impact_time + Real(instant);
+    if (!may_reach(body, plane, limit)) return;
+    const auto time = first_contact(relative, plane, b.time, limit, tolerance_);
     if (!time) return;
     const bool is_end = wall == partner::wall_left || wall == partner::wall_right;
     const bool is_way_in =
@@ -299,6 +300,16 @@ bool Prediction::may_meet(std::uint32_t one, std::uint32_t other, Real limit) co
                          stretch_of(b.vy, push_b.y(), ahead_b));
 }
 
+/// The same for a wall or the edge of a cell: half of those that a body on a curve might come to it
+/// flies away from.
+bool Prediction::may_reach(std::uint32_t body, const HalfPlane& plane, Real limit) const {
+  const Body& b = bodies_[body];
+  const RealVector& push = bodies_.law(body).acceleration;
+  const RealVector &normal = plane.normal, position(b.x, b.y), velocity(b.vx, b.vy);
+  const Real back = stretch_of(normal.dot(velocity), normal.dot(push), limit - b.time).low;
+  return !(plane.gap(position).distance + back > Real(1e3) * tolerance_);
+}
+
 void Prediction::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
   if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0 && is_still(bodies_, body) &&
       is_still(bodies_, other))
@@ -327,10 +338,10 @@ void Prediction::predict_curved_crossing(std::uint32_t body) {
   const Real start = std::max(bodies_[body].time, clock_.now);
   const auto leave = [&](Real edge, const RealVector& normal, CellGrid::Direction direction) {
     if (std::abs(edge) == infinity) return;
+    const HalfPlane plane{normal, normal.sum() * edge};
     const Real limit = std::min(slot.impact_time, slot.crossing_time);
-    const auto time =
-        first_contact(RelativeMotion{still, moving}, HalfPlane{normal, normal.sum() * edge}, start,
-                      limit, tolerance_);
+    if (!may_reach(body, plane, limit)) return;
+    const auto time = first_contact(RelativeMotion{still, moving}, plane, start, limit, tolerance_);
     if (!time || *time >= slot.crossing_time) return;
     slot.crossing_time = *time;
     slot.direction = direction;

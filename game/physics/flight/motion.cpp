@@ -19,6 +19,7 @@ Real stretched_square(Real y) {
 
 /// q of WarpedTime, given its s.
 Real warped_square(Real elapsed, Real drag, Real s) {
+  if (elapsed == 0.0) return 0.0;
   if (drag == 0.0) return 0.5 * elapsed * elapsed;
   const Real y = drag * elapsed;
   return y < 0.4 ? elapsed * elapsed * stretched_square(y) : (elapsed - s) / drag;
@@ -35,6 +36,13 @@ WarpedTime warp(Real elapsed, Real drag) {
 Motion Motion::at(Real instant) const {
   Motion moved = *this;
   moved.time = instant;
+  const RealVector zero(0.0, 0.0);
+  if (velocity == zero && acceleration == zero) {
+    // Nothing is to be multiplied; only the signs of zeros come out as they do below.
+    moved.velocity += acceleration, moved.position += moved.velocity;
+    if (instant >= rest_time) moved.rest_time = std::numeric_limits<Real>::infinity();
+    return moved;
+  }
   const bool is_at_rest = instant >= rest_time;
   const Real elapsed = (is_at_rest ? rest_time : instant) - time;
   WarpedTime w{};
