@@ -294,10 +294,28 @@ bool Prediction::may_meet(std::uint32_t one, std::uint32_t other, Real limit) co
   const RealVector reach = bodies_.build(one).half_extent + bodies_.build(other).half_extent +
                            RealVector::Constant(a.radius + b.radius + Real(1e3) * tolerance_);
   const Real ahead_a = limit - a.time, ahead_b = limit - b.time;
-  return may_come_within(reach.x(), b.x - a.x, stretch_of(a.vx, push_a.x(), ahead_a),
-                         stretch_of(b.vx, push_b.x(), ahead_b)) &&
-         may_come_within(reach.y(), b.y - a.y, stretch_of(a.vy, push_a.y(), ahead_a),
-                         stretch_of(b.vy, push_b.y(), ahead_b));
+  if (!may_come_within(reach.x(), b.x - a.x, stretch_of(a.vx, push_a.x(), ahead_a),
+                       stretch_of(b.vx, push_b.x(), ahead_b)) ||
+      !may_come_within(reach.y(), b.y - a.y, stretch_of(a.vy, push_a.y(), ahead_a),
+                       stretch_of(b.vy, push_b.y(), ahead_b)))
+    return false;
+  return a.time < b.time ? may_meet_since(one, other, reach, limit)
+                         : may_meet_since(other, one, reach, limit);
+}
+
+/// The same from the later one's event on, which leaves out what the earlier one, if it flies
+/// straight, has done until then. Its velocity has but faded.
+bool Prediction::may_meet_since(std::uint32_t earlier, std::uint32_t later, const RealVector& reach,
+                                Real limit) const {
+  const Body &a = bodies_[earlier], &b = bodies_[later];
+  if (a.is(Body::curved)) return true;
+  const RealVector &push = bodies_.law(later).acceleration,
+                   offset = RealVector(b.x, b.y) - physics::position_at(bodies_, earlier, b.time);
+  const Real ahead = limit - b.time;
+  return may_come_within(reach.x(), offset.x(), stretch_of(a.vx, 0.0, ahead),
+                         stretch_of(b.vx, push.x(), ahead)) &&
+         may_come_within(reach.y(), offset.y(), stretch_of(a.vy, 0.0, ahead),
+                         stretch_of(b.vy, push.y(), ahead));
 }
 
 /// The same for a wall or the edge of a cell: half of those that a body on a curve might come to it

@@ -81,6 +81,8 @@ class Prediction {
   std::uint32_t predict_dragged_counting(std::uint32_t body, std::uint32_t count);
   Real limit_of_curved(std::uint32_t body, std::uint32_t other) const;
   bool may_meet(std::uint32_t one, std::uint32_t other, Real limit) const;
+  bool may_meet_since(std::uint32_t earlier, std::uint32_t later, const RealVector& reach,
+                      Real limit) const;
   bool may_reach(std::uint32_t body, const HalfPlane& plane, Real limit) const;
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_crossing(std::uint32_t body);
