@@ -215,19 +215,22 @@ Real Clusters::still_speed() const {
 }
 
 std::uint32_t Clusters::place_of(std::uint32_t body, Real time) {
-  const auto found = std::find(members_.begin(), members_.end(), body);
-  if (found != members_.end()) return static_cast<std::uint32_t>(found - members_.begin());
+  if (is_member(body)) return places_[body];
   rests_.free(body, time);
+  places_[body] = static_cast<std::uint32_t>(members_.size());
   members_.push_back(body);
   problem_.add_body(bodies_.build(body).mass, bodies_.build(body).inverse_mass,
                     bodies_.velocity(body), bodies_.is_slowed(body));
-  return static_cast<std::uint32_t>(members_.size() - 1);
+  return places_[body];
 }
 
 void Clusters::add_contact(std::uint32_t place, Partner p, const Limits& limits, Real time) {
   const std::uint32_t body = members_[place];
-  const Contact c = detection_.contact(body, p, time);
-  if (c.gap.distance > limits.gap) return;
+  const bool is_known = is_body(p) && is_member(p);
+  if (is_known && places_[p] < place) return;  // from its side
+  const std::optional<Contact> near = detection_.contact_within(body, p, limits.gap, time);
+  if (!near) return;
+  const Contact& c = *near;
   const RealVector there =
       bodies_.is_fixed(p) ? RealVector(0.0, 0.0) : motion_at(bodies_, p, time).velocity;
   if (std::abs(c.gap.normal.dot(bodies_.velocity(body) - there)) > limits.speed) return;
@@ -235,10 +238,9 @@ void Clusters::add_contact(std::uint32_t place, Partner p, const Limits& limits,
   touch.gap = c.gap.distance, touch.reach = reach_of(c);
   if (is_body(p)) limit_by_face(c, time);
   if (bodies_.is_fixed(p)) return problem_.touches.push_back(touch);
-  const bool is_known = std::find(members_.begin(), members_.end(), p) != members_.end();
   if (!is_known && members_.size() >= cluster_max) return;
   touch.other = place_of(p, time);
-  if (touch.other > place) problem_.touches.push_back(touch);
+  problem_.touches.push_back(touch);
 }
 
 /// How far the point is about which the normal turns [m]; 0 for a face.
@@ -267,6 +269,7 @@ void Clusters::limit_by_face(const Contact& c, Real time) {
 /// Everybody connected with the contact within the limits, in an order that depends on ids alone.
 void Clusters::gather(const Contact& c, const Limits& limits, Real time) {
   members_.clear();
+  places_.resize(bodies_.count());
   problem_.clear();
   face_time_ = infinity;
   place_of(c.body, time);

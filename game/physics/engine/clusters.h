@@ -61,6 +61,10 @@ class Clusters {
   bool hop_gathered(const Closing& closing, const Limits& limits, Real time);
   bool has_turning() const;
   void gather(const Contact& contact, const Limits& limits, Real time);
+  bool is_member(std::uint32_t body) const {
+    const std::uint32_t place = places_[body];
+    return place < members_.size() && members_[place] == body;
+  }
   std::uint32_t place_of(std::uint32_t body, Real time);
   void add_contact(std::uint32_t place, Partner partner, const Limits& limits, Real time);
   bool freeze();
@@ -86,7 +90,8 @@ class Clusters {
   double puck_friction_;                        // m/s^2
   Real contact_time_, glide_max_, rest_speed_;  // s, s, m/s
   std::vector<std::uint32_t> members_;
-  ContactProblem problem_;  // theirs, in the same order
+  std::vector<std::uint32_t> places_;  // by body; of a member, where it is in `members_`
+  ContactProblem problem_;             // theirs, in the same order
   SeparationSolver solver_;
   GlideSolver glide_solver_;
   std::vector<Drive> drives_;           // of the members

@@ -1,6 +1,9 @@
 // Gaps at an instant, and the question who else is there.
 #include "game/physics/engine/contact_detection.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "game/physics/engine/field_parts.h"
 #include "game/physics/flight/discs_near.h"
 #include "game/physics/flight/straight_flight.h"
@@ -26,6 +29,22 @@ Contact ContactDetection::contact(std::uint32_t body, Partner p, Real time) cons
   const BodyShape& build = bodies_.build(body);
   const RealVector extent = build.half_extent + RealVector::Constant(radius);
   return {body, p, plane_of(spec_.field, p, extent, build.half).gap(position)};
+}
+
+std::optional<Contact> ContactDetection::contact_within(std::uint32_t body, Partner p, Real gap,
+                                                        Real time) const {
+  if (!is_body(p)) {
+    const Contact c = contact(body, p, time);
+    return c.gap.distance > gap ? std::nullopt : std::optional(c);
+  }
+  const RealVector offset = position_at(body, time) - position_at(p, time);
+  const RoundedBox shape = shape_of(bodies_, body, p);
+  const Real reach = (shape.radius + gap) * (1.0 + 1e-9),  // rounding shall not decide
+      x = std::max<Real>(0.0, std::abs(offset.x()) - shape.half_extent.x()),
+             y = std::max<Real>(0.0, std::abs(offset.y()) - shape.half_extent.y());
+  if (x * x + y * y > reach * reach) return std::nullopt;
+  const Contact c{body, p, shape.gap(offset)};
+  return c.gap.distance > gap ? std::nullopt : std::optional(c);
 }
 
 Real ContactDetection::restitution(std::uint32_t body, Partner p) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "game/physics/bodies/bodies.h"
@@ -22,6 +23,10 @@ class ContactDetection {
   ContactDetection& operator=(const ContactDetection&) = delete;
 
   Contact contact(std::uint32_t body, Partner partner, Real time) const;
+  /// That contact if its gap is at most `gap` [m]: most who are near are farther, and do not take
+  /// long.
+  std::optional<Contact> contact_within(std::uint32_t body, Partner partner, Real gap,
+                                        Real time) const;
   Real restitution(std::uint32_t body, Partner partner) const;
   /// Calls `visit(partner)` for everybody that `body` may touch, in an order that depends on ids
   /// alone: bodies near it, walls, and whatever else of the field concerns it. `visit` must not
