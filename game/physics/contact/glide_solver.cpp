@@ -14,7 +14,9 @@ namespace {
 
 /// The first step aims by the thrust alone, the second by nearly the right accelerations, and what
 /// the third leaves of a gap is of the fourth order in the duration.
-constexpr int aim_steps = 3;
+constexpr int aim_steps = 3, aim_steps_inside = 2;
+constexpr std::size_t dual_max = 96;  // contacts
+constexpr Real accuracy = 1e-6;       // of accelerations, from inside
 
 RealVector between(const Touch& touch, const auto& of_body) {
   return touch.other == fixed_place ? RealVector(of_body(touch.body))
@@ -27,16 +29,26 @@ bool GlideSolver::solve(const ContactProblem& problem, std::span<const Drive> dr
                         const Glide& glide) {
   assert(drives.size() == problem.body_count() && glide.duration > 0.0 && glide.opening >= 0.0);
   start(problem, drives);
-  for (int step = 0; step < aim_steps; ++step) {
+  const int steps = is_small() ? aim_steps : aim_steps_inside;
+  for (int step = 0; step < steps; ++step) {
     move(problem, glide);
     for (std::size_t i = 0; i < problem.touches.size(); ++i)
       aim(problem.touches[i], forces_.touches[i], glide);
-    if (!set_.solve(forces_, all_)) return false;
-    accelerations_ = set_.velocities();
+    if (!solve_forces()) return false;
   }
   work_max_ = 0.0;
-  for (const std::uint32_t i : set_.pushing())
+  for (const std::uint32_t i : is_small() ? set_.pushing() : std::span<const std::uint32_t>(all_))
     work_max_ += work_of(problem, forces_.touches[i], glide.duration);
+  return true;
+}
+
+/// The dual method takes a step for each contact that pushes, and the longer the more do: many are
+/// faster solved from inside.
+bool GlideSolver::is_small() const { return all_.size() <= dual_max; }
+
+bool GlideSolver::solve_forces() {
+  if (is_small() ? !set_.solve(forces_, all_) : !interior_.solve(forces_, accuracy)) return false;
+  accelerations_ = is_small() ? set_.velocities() : interior_.velocities();
   return true;
 }
 

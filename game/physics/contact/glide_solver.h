@@ -7,6 +7,7 @@
 
 #include "game/physics/contact/active_set.h"
 #include "game/physics/contact/contact_problem.h"
+#include "game/physics/contact/interior_point.h"
 #include "game/physics/real.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -47,9 +48,12 @@ class GlideSolver {
   void start(const ContactProblem& problem, std::span<const Drive> drives);
   void move(const ContactProblem& problem, const Glide& glide);
   void aim(const Touch& touch, Touch& force, const Glide& glide) const;
+  bool is_small() const;
+  bool solve_forces();
   Real work_of(const ContactProblem& problem, const Touch& force, Real duration) const;
 
   ActiveSet set_;
+  InteriorPoint interior_;
   ContactProblem forces_;  // accelerations instead of velocities
   std::vector<RealVector> accelerations_;
   std::vector<std::uint32_t> all_;  // touches

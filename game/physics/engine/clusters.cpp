@@ -9,11 +9,11 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 namespace {
-constexpr std::size_t cluster_max = 256;
 constexpr double glancing_part = 16.0;     // of contact_time
 constexpr std::uint32_t long_series = 64;  // of hops
 constexpr double loose_gaps = 8.0;
 constexpr std::size_t gliding_max = 96;    // contacts
+constexpr std::size_t pile_min = 32;       // bodies besides one
 constexpr double glide_turn = 1.0 / 64.0;  // of a normal during a glide [rad]
 /// The least speed at which a hop parts contacts, relative to the speeds around: less than a few
 /// roundings would be none. Its energy, 1e-24 of what there is, is below rounding.
@@ -36,6 +36,10 @@ Clusters::Clusters(const WorldSpec& spec, const Uses& uses)
 bool Clusters::hop(const Contact& c, Real approach, Real pressing, Real time) {
   const Limits limits{cluster_gap, std::max<Real>(rest_speed_, 2.0 * approach)};
   gather(c, limits, time);
+  if (problem_.touches.size() > gliding_max && history_.hops(c.body) % 4 == 0) {
+    if (flow(c, time)) return true;
+    gather(c, limits, time);
+  }
   return hop_gathered({c, approach, pressing}, limits, time);
 }
 
@@ -89,7 +93,10 @@ void Clusters::go_on(std::uint32_t body, Real time) {
   assert(bodies_[body].is(Body::frozen));
   const Contact c{body, partner::none, {}};
   const Limits limits{cluster_gap, rest_speed_};
+  std::size_t others = 0;
+  jams_.for_each_other(body, [&](std::uint32_t) { ++others; });
   rests_.rouse(body, time);
+  if (others >= pile_min && flow(c, time)) return;
   gather(c, limits, time);
   if (has_turning()) hop_gathered({c, 0.0, 0.0}, limits, time);
 }
@@ -113,30 +120,38 @@ bool Clusters::glide(const Contact& c, Real thrust, Real time) {
       problem_.touches.size() > gliding_max || history_.is_restless(c))
     return false;
   velocities_ = problem_.velocities;
-  Glide glide = glide_of(thrust);
+  Glide glide = glide_of(thrust, glide_turn);
   const Real sum = glide.opening * static_cast<Real>(problem_.touches.size()),
              gain = solver_.part(problem_, glide.opening, 0.5 * mass() * sum * sum);
-  glide.duration = std::min(glide.duration, glide_of(thrust).duration);
-  drives_.clear();
-  for (const std::uint32_t body : members_)
-    drives_.push_back({bodies_.build(body).thrust, bodies_.own_drag(body)});
+  glide.duration = std::min(glide.duration, glide_of(thrust, glide_turn).duration);
   const bool is_jammed =
       std::any_of(problem_.touches.begin(), problem_.touches.end(),
                   [&](const Touch& touch) { return touch.wanted < glide.opening; });
-  if (is_jammed || !glide_solver_.solve(problem_, drives_, glide))
-    return problem_.velocities = velocities_, false;
-  for (std::size_t place = 0; place < members_.size(); ++place)
-    bodies_.set_velocity(members_[place], problem_.velocities[place]);
-  jams_.glide(members_, glide_solver_.accelerations(), time + glide.duration);
+  if (is_jammed || !find_forces(glide)) return problem_.velocities = velocities_, false;
+  begin_glide(glide_solver_.accelerations(), time + glide.duration);
   record_.counters().hop_energy +=
       static_cast<double>(std::max<Real>(0.0, gain) + glide_solver_.work_max());
   return true;
 }
 
+bool Clusters::find_forces(const Glide& glide) {
+  drives_.clear();
+  for (const std::uint32_t body : members_)
+    drives_.push_back({bodies_.build(body).thrust, bodies_.own_drag(body)});
+  return glide_solver_.solve(problem_, drives_, glide);
+}
+
+/// With the velocities of the problem.
+void Clusters::begin_glide(const std::vector<RealVector>& accelerations, Real end) {
+  for (std::size_t place = 0; place < members_.size(); ++place)
+    bodies_.set_velocity(members_[place], problem_.velocities[place]);
+  jams_.glide(members_, accelerations, end);
+}
+
 /// As long as normals keep their directions within `glide_turn`, and no contact leaves its face.
 /// The opening makes room for what constant forces do to a gap on the way, (t/T)^2 (1 - t/T) of the
 /// third derivative times T^3/6, the normals turning as fast as they do at the end.
-Glide Clusters::glide_of(Real thrust) const {
+Glide Clusters::glide_of(Real thrust, Real turn) const {
   Real rate = 0.0, nearest = infinity, drag = 0.0;
   for (const Touch& touch : problem_.touches) {
     if (!(touch.reach > 0.0)) continue;
@@ -150,8 +165,8 @@ Glide Clusters::glide_of(Real thrust) const {
   }
   for (const std::uint32_t body : members_) drag = std::max(drag, bodies_.own_drag(body));
   const Real duration = std::clamp<Real>(
-      std::min({glide_turn / rate, std::sqrt(2.0 * glide_turn * nearest / thrust), face_time_}),
-      contact_time_, glide_max_);
+      std::min({turn / rate, std::sqrt(2.0 * turn * nearest / thrust), clear_time_}), contact_time_,
+      glide_max_);
   rate += thrust * duration / nearest;
   const Real opening = (3.0 * rate + drag) * thrust * duration * duration / 6.0;
   return {duration, std::max(Real(parting_min) * problem_.speed(),
@@ -228,17 +243,23 @@ void Clusters::add_contact(std::uint32_t place, Partner p, const Limits& limits,
   const std::uint32_t body = members_[place];
   const bool is_known = is_body(p) && is_member(p);
   if (is_known && places_[p] < place) return;  // from its side
-  const std::optional<Contact> near = detection_.contact_within(body, p, limits.gap, time);
+  const std::optional<Contact> near =
+      detection_.contact_within(body, p, std::max(limits.gap, limits.sight), time);
   if (!near) return;
   const Contact& c = *near;
   const RealVector there =
       bodies_.is_fixed(p) ? RealVector(0.0, 0.0) : motion_at(bodies_, p, time).velocity;
-  if (std::abs(c.gap.normal.dot(bodies_.velocity(body) - there)) > limits.speed) return;
+  const Real opening = c.gap.normal.dot(bodies_.velocity(body) - there);
+  if (c.gap.distance > limits.gap) {
+    if (opening < 0.0) clear_time_ = std::min(clear_time_, c.gap.distance / -opening);
+    return;
+  }
+  if (std::abs(opening) > limits.speed) return;
   Touch touch{place, fixed_place, c.gap.normal, detection_.restitution(body, p)};
   touch.gap = c.gap.distance, touch.reach = reach_of(c);
   if (is_body(p)) limit_by_face(c, time);
   if (bodies_.is_fixed(p)) return problem_.touches.push_back(touch);
-  if (!is_known && members_.size() >= cluster_max) return;
+  if (!is_known && members_.size() >= limits.members) return;
   touch.other = place_of(p, time);
   problem_.touches.push_back(touch);
 }
@@ -262,8 +283,8 @@ void Clusters::limit_by_face(const Contact& c, Real time) {
              speed = here.velocity[along] - there.velocity[along],
              offset = here.position[along] - there.position[along];
   if (extent > 0.0 && speed != 0.0)
-    face_time_ =
-        std::min(face_time_, (extent - std::copysign(offset, offset * speed)) / std::abs(speed));
+    clear_time_ =
+        std::min(clear_time_, (extent - std::copysign(offset, offset * speed)) / std::abs(speed));
 }
 
 /// Everybody connected with the contact within the limits, in an order that depends on ids alone.
@@ -271,12 +292,14 @@ void Clusters::gather(const Contact& c, const Limits& limits, Real time) {
   members_.clear();
   places_.resize(bodies_.count());
   problem_.clear();
-  face_time_ = infinity;
+  clear_time_ = infinity;
   place_of(c.body, time);
   if (!bodies_.is_fixed(c.partner)) place_of(c.partner, time);
-  for (std::uint32_t place = 0; place < members_.size(); ++place)
-    detection_.visit_partners(members_[place],
-                              [&](Partner p) { add_contact(place, p, limits, time); });
+  for (std::uint32_t place = 0; place < members_.size() && clear_time_ >= limits.clear; ++place) {
+    const auto add = [&](Partner p) { add_contact(place, p, limits, time); };
+    limits.sight > 0.0 ? detection_.visit_all_within(members_[place], limits.sight, add)
+                       : detection_.visit_partners(members_[place], add);
+  }
 }
 
 /// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long

@@ -11,8 +11,10 @@
 #include "game/physics/bodies/impact_history.h"
 #include "game/physics/bodies/jams.h"
 #include "game/physics/bodies/partner.h"
+#include "game/physics/bodies/tolerances.h"
 #include "game/physics/contact/contact_problem.h"
 #include "game/physics/contact/glide_solver.h"
+#include "game/physics/contact/interior_point.h"
 #include "game/physics/contact/separation_solver.h"
 #include "game/physics/engine/contact_detection.h"
 #include "game/physics/engine/rest_contacts.h"
@@ -47,9 +49,13 @@ class Clusters {
   void stop_around(const Contact& contact, Real time);
 
  private:
-  /// Up to which gap, and which speed of closing or opening, a contact belongs to the cluster.
+  /// Up to which gap [m], and which speed of closing or opening [m/s], a contact belongs to the
+  /// cluster, and of how many bodies that consists at most. Those within `sight` [m] are asked when
+  /// they may come; if one does before `clear` [s], the rest is not gathered.
   struct Limits {
     Real gap, speed;
+    std::size_t members = 256;
+    Real sight = 0.0, clear = -infinity;
   };
 
   /// How fast a contact closes, and how that is pressed [m/s^2].
@@ -71,7 +77,16 @@ class Clusters {
   bool freeze_loosely(const Contact& contact, Real time);
   void part(Real pressure, Real pressing, Real thrust);
   bool glide(const Contact& contact, Real thrust, Real time);
-  Glide glide_of(Real thrust) const;
+  Glide glide_of(Real thrust, Real turn) const;
+  bool find_forces(const Glide& glide);
+  void begin_glide(const std::vector<RealVector>& accelerations, Real end);
+
+  // clusters_piles.cpp
+  bool flow(const Contact& contact, Real time);
+  bool may_flow(Real thrust) const;
+  bool flow_as_one(Real time);
+  bool bears_thrust();
+  RealVector common_velocity() const;
   Real reach_of(const Contact& contact) const;
   void limit_by_face(const Contact& contact, Real time);
   Real mass() const;
@@ -96,7 +111,10 @@ class Clusters {
   GlideSolver glide_solver_;
   std::vector<Drive> drives_;           // of the members
   std::vector<RealVector> velocities_;  // theirs, before a glide was tried
-  Real face_time_ = 0.0;  // until the first of them reaches the end of another one's face [s]
+  /// Until the first of them reaches the end of another one's face, or somebody else may come [s].
+  Real clear_time_ = 0.0;
+  ContactProblem loads_;  // of a pile: thrusts instead of velocities
+  InteriorPoint interior_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -33,6 +33,10 @@ class ContactDetection {
   /// look for partners itself.
   template <class Visit>
   void visit_partners(std::uint32_t body, Visit&& visit);
+  /// The same, and everybody nearer than `gap` [m], however small the cells of the grid are. The
+  /// state of `body` is that of now.
+  template <class Visit>
+  void visit_all_within(std::uint32_t body, Real gap, Visit&& visit);
   /// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
   bool has_company(std::uint32_t body, Partner partner, Real time);
 
@@ -40,6 +44,8 @@ class ContactDetection {
   RealVector position_at(std::uint32_t body, Real time) const;
   bool is_alone(std::uint32_t one, std::uint32_t two, Real time);
   bool has_third(std::uint32_t one, Partner two, Real time);
+  template <class Visit>
+  void visit_near_and_field(std::uint32_t body, Visit&& visit);
 
   const WorldSpec& spec_;
   const Bodies& bodies_;
@@ -55,6 +61,29 @@ void ContactDetection::visit_partners(std::uint32_t body, Visit&& visit) {
   grid_.around(body, [&](std::uint32_t other) {
     if (other != body) near_.push_back(other);
   });
+  visit_near_and_field(body, visit);
+}
+
+/// Small bodies are listed by their centres and reach no further than half a cell; wide ones stand
+/// wherever a small one may touch them.
+template <class Visit>
+void ContactDetection::visit_all_within(std::uint32_t body, Real gap, Visit&& visit) {
+  near_.clear();
+  const Body& b = bodies_[body];
+  const RealVector extent =
+      bodies_.build(body).half_extent + RealVector::Constant(b.radius + gap + Real(grid_.side()));
+  const auto x = static_cast<double>(b.x), y = static_cast<double>(b.y),
+             width = static_cast<double>(extent.x()), height = static_cast<double>(extent.y());
+  grid_.within({grid_.column(x - width), grid_.row(y - height), grid_.column(x + width),
+                grid_.row(y + height)},
+               [&](std::uint32_t other) {
+                 if (other != body) near_.push_back(other);
+               });
+  visit_near_and_field(body, visit);
+}
+
+template <class Visit>
+void ContactDetection::visit_near_and_field(std::uint32_t body, Visit&& visit) {
   std::sort(near_.begin(), near_.end());
   for (const std::uint32_t other : near_) visit(other);
   const bool is_in_mouth = bodies_[body].mouth != Body::no_mouth;

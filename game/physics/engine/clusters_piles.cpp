@@ -1,0 +1,108 @@
+// Piles: large pressed clusters, which move on together with all who may come into contact on the
+// way, and as one where nothing gives way any more.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "game/physics/bodies/tolerances.h"
+#include "game/physics/engine/clusters.h"
+
+namespace rink::physics::inline RINK_PRECISION {
+
+namespace {
+
+constexpr std::size_t pile_max = 4096;      // bodies
+constexpr double closing_max = 100.0;       // of the rest speed: who may come during a glide
+constexpr double sight = 4.0;               // of the gap up to which they belong to the pile
+constexpr double overlap_max = 1e-9;        // m; where more is allowed there are no piles
+constexpr double pile_turn = 1.0 / 8.0;     // of a normal during a glide [rad]
+constexpr double flow_accuracy = 1e-6;      // of speeds; the opening makes room for it
+constexpr double load_accuracy = 1e-12;     // of thrusts, squared
+constexpr double borne_part = 1e-4;         // of the strongest thrust [N]: what is less is borne
+constexpr double one_body_glides = 1000.0;  // longest ones, before it is looked at again
+
+}  // namespace
+
+/// Gathers the pile, and lets it move on. Answers whether it could; else a cluster is to be
+/// gathered anew.
+bool Clusters::flow(const Contact& c, Real time) {
+  const Real gap = closing_max * rest_speed_ * glide_max_;
+  gather(c, {gap, infinity, pile_max, sight * gap, contact_time_}, time);
+  const Real thrust = thrust_max();
+  if (!may_flow(thrust)) return false;
+  for (std::size_t place = 0; place < members_.size(); ++place)
+    problem_.velocities[place] = bodies_.velocity(members_[place]);
+  const Real energy = problem_.energy();
+  Glide glide = glide_of(thrust, pile_turn);
+  glide.opening += 2.0 * flow_accuracy * problem_.speed();
+  for (Touch& touch : problem_.touches)
+    touch.wanted = glide.opening - std::max<Real>(0.0, touch.gap) / glide.duration;
+  if (!interior_.solve(problem_, flow_accuracy)) return false;
+  problem_.velocities = interior_.velocities();
+  if (flow_as_one(time)) return record_.note(EventKind::freeze, time, c.body), true;
+  glide.duration = std::min(glide.duration, glide_of(thrust, pile_turn).duration);
+  if (!find_forces(glide)) return false;
+  history_.note_hop(members_, time);
+  begin_glide(glide_solver_.accelerations(), time + glide.duration);
+  record_.note(EventKind::hop, time, c.body, c.partner);
+  record_.counters().hop_energy += static_cast<double>(
+      std::max<Real>(0.0, problem_.energy() - energy) + glide_solver_.work_max());
+  return true;
+}
+
+bool Clusters::may_flow(Real thrust) const {
+  return thrust > 0.0 && !bodies_.is_slowed() && has_turning() && clear_time_ >= contact_time_ &&
+         std::all_of(problem_.touches.begin(), problem_.touches.end(), [](const Touch& touch) {
+           return touch.restitution < 1.0 && touch.gap > -overlap_max;
+         });
+}
+
+/// The common velocity that is left when all motion against each other has come to an end.
+RealVector Clusters::common_velocity() const {
+  RealVector momentum(0.0, 0.0);
+  for (std::size_t place = 0; place < members_.size(); ++place)
+    momentum += problem_.masses[place] * problem_.velocities[place];
+  RealVector common = momentum / mass();
+  for (const Touch& touch : problem_.touches)
+    for (int axis = 0; axis < 2; ++axis)
+      if (touch.other == fixed_place && touch.normal[axis] != 0.0) common[axis] = 0.0;
+  return common;
+}
+
+/// Where forces bear all thrust, what the bodies still move against each other would be lost
+/// between them within the room that they have: they move on as one, until something acts on them.
+bool Clusters::flow_as_one(Real time) {
+  const RealVector common = common_velocity();
+  const Real drag = bodies_.own_drag(members_.front());
+  const bool is_parted_by_drag =
+      common != RealVector(0.0, 0.0) &&
+      std::any_of(members_.begin(), members_.end(),
+                  [&](std::uint32_t body) { return bodies_.own_drag(body) != drag; });
+  const Real apart = problem_.energy() - 0.5 * mass() * common.squaredNorm();
+  if (is_parted_by_drag || apart > 0.5 * mass() * rest_speed_ * rest_speed_ || !bears_thrust())
+    return false;
+  std::fill(problem_.velocities.begin(), problem_.velocities.end(), common);
+  velocities_.assign(members_.size(), RealVector(0.0, 0.0));
+  history_.note_hop(members_, time);
+  begin_glide(velocities_, time + one_body_glides * glide_max_);
+  return true;
+}
+
+bool Clusters::bears_thrust() {
+  loads_ = problem_;
+  std::erase_if(loads_.touches,
+                [&](const Touch& touch) { return touch.gap > rest_speed_ * glide_max_; });
+  for (Touch& touch : loads_.touches) touch.wanted = 0.0;
+  Real strongest = 0.0;
+  for (std::size_t place = 0; place < members_.size(); ++place) {
+    loads_.velocities[place] = bodies_.build(members_[place]).thrust;
+    strongest = std::max(strongest, loads_.masses[place] * loads_.velocities[place].norm());
+  }
+  if (!interior_.solve(loads_, load_accuracy)) return false;
+  for (std::size_t place = 0; place < members_.size(); ++place)
+    if (loads_.masses[place] * interior_.velocities()[place].norm() > borne_part * strongest)
+      return false;
+  return true;
+}
+
+}  // namespace rink::physics::inline RINK_PRECISION
