@@ -29,7 +29,11 @@ double step_of(int count, double packing) {
 }
 
 /// All events in one order, by a calendar.
-WorldSpec plain_loop() { return WorldSpec(); }
+WorldSpec plain_loop() {
+  WorldSpec spec;
+  spec.slabs.reset();
+  return spec;
+}
 
 /// By windows, which are divided among tiles where there are many discs; a calendar is a tenth
 /// quicker for a thousand.

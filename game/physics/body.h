@@ -103,9 +103,10 @@ struct WorldSpec {
   double cell_size = 0.0;  ///< lower limit for the side of a grid cell [m]; 0 lets the world
                            ///< choose. Changes cost, never results.
   QueuePolicy queue = QueuePolicy::calendar;  ///< changes cost, never results
-  std::optional<SlabPlan> slabs{};  ///< where events are kept by windows: free flight is played by
-                                    ///< tiles that know nothing of each other. Changes cost, never
-                                    ///< results; no part of a snapshot
+  std::optional<SlabPlan> slabs =
+      SlabPlan{};  ///< how many bodies in free flight are played by tiles that know nothing of each
+                   ///< other, and by windows whatever `queue` says, unless that is a heap; nothing:
+                   ///< all in order. Changes cost, never results; no part of a snapshot
   bool allow_overlap = false;  ///< bodies may be added where others are; those that overlap and
                                ///< approach collide at once, none is ever moved
 };

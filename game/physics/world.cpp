@@ -10,9 +10,7 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-World::World(const WorldSpec& spec)
-    : engine_(std::make_unique<Engine>(spec)),
-      slabs_(spec.slabs ? std::make_unique<Slabs>(*engine_, *spec.slabs) : nullptr) {}
+World::World(const WorldSpec& spec) : World(std::make_unique<Engine>(spec)) {}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -160,7 +158,10 @@ bool World::is_free(const Vector2& centre, const Vector2& half_extent) const {
   return physics::is_free(engine_->present(), centre.cast<Real>(), {half_extent.cast<Real>(), 0.0});
 }
 
-World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
+World::World(std::unique_ptr<Engine> engine)
+    : engine_(std::move(engine)),
+      slabs_(engine_->spec().slabs ? std::make_unique<Slabs>(*engine_, *engine_->spec().slabs)
+                                   : nullptr) {}
 std::vector<std::uint8_t> World::save() const { return to_snapshot(engine_->state()); }
 std::optional<World> World::restore(std::span<const std::uint8_t> bytes) {
   std::optional<WorldState> state = from_snapshot(bytes);

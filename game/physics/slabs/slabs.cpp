@@ -23,7 +23,7 @@ namespace {
 /// but by chance.
 constexpr std::uint64_t at_once_max = Clock::endless_events / 2;
 /// The shortest window, in units of that in which a third of the pending events come.
-constexpr double least_window = 1.0 / 16.0;
+constexpr double least_window = 1.0 / 8.0;
 /// Where a window had to be undone, so many after it block a cell more around what is put off.
 /// Where one of these has to be undone, windows get shorter by that, and else longer; not below
 /// that part of what the plan says.
