@@ -162,7 +162,7 @@ class Stranger final : public rti::TransportListener {
   rti::TcpTransport transport_;
   rti::ConnectionId connection_ = 0;
   bool is_open_ = false, is_closed_ = false;
-  FrameReader reader_;
+  FrameQueue reader_;
 };
 
 TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {

@@ -40,7 +40,7 @@ void PeerStation::press(double instant) {
 }
 
 void PeerStation::receive(peer::PeerNumber from, rti::Bytes bytes) {
-  game::FrameReader& reader = readers_[from];
+  game::FrameQueue& reader = readers_[from];
   reader.add(bytes);
   while (auto frame = reader.next(game::peer_frame_max)) {
     const bool is_mail = frame->kind == game::FrameKind::mail && !frame->content.empty() &&

@@ -1,8 +1,8 @@
-// Frames cut out of a stream of bytes: four bytes of length, lowest first, then the kind and what
-// is in it, which the length counts.
+// The frames between peers, which are the RTI's: a length of four bytes, then the kind and what is
+// in it, which the length counts.
 #pragma once
 
-#include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "game/net/peer/network/greetings.h"
-#include "rti/wire/bytes.h"
+#include "rti/wire/frame.h"
 
 namespace rink::game {
 
-inline constexpr std::size_t frame_head = 5;
+inline constexpr std::size_t frame_head = rti::frame_header_size + 1;  ///< with the kind [bytes]
 inline constexpr std::uint32_t stranger_frame_max =
     32 * 1024;  ///< of connections that are not admitted [bytes]
 inline constexpr std::uint32_t peer_frame_max =
@@ -26,44 +26,51 @@ struct Frame {
 };
 
 inline std::vector<std::uint8_t> framed(FrameKind kind, std::span<const std::uint8_t> content) {
+  assert(kind <= frame_kind_max && content.size() < peer_frame_max);
   std::vector<std::uint8_t> bytes(frame_head + content.size());
-  const std::size_t length = content.size() + 1;
-  for (std::size_t k = 0; k < 4; ++k) bytes[k] = static_cast<std::uint8_t>(length >> (8 * k));
-  bytes[4] = static_cast<std::uint8_t>(kind);
+  const auto length = static_cast<std::uint32_t>(content.size() + 1);
+  std::memcpy(bytes.data(), &length, rti::frame_header_size);
+  bytes[rti::frame_header_size] = static_cast<std::uint8_t>(kind);
   if (!content.empty()) std::memcpy(bytes.data() + frame_head, content.data(), content.size());
   return bytes;
 }
 
-class FrameReader {
+/// Nothing if the payload is of no kind that there is. It is not empty.
+inline std::optional<Frame> frame_of(rti::Bytes payload) {
+  assert(!payload.empty());
+  if (payload[0] > static_cast<std::byte>(frame_kind_max)) return std::nullopt;
+  Frame frame{static_cast<FrameKind>(payload[0]), std::vector<std::uint8_t>(payload.size() - 1)};
+  if (payload.size() > 1) std::memcpy(frame.content.data(), &payload[1], payload.size() - 1);
+  return frame;
+}
+
+/// The frames of a connection, taken when their reader is ready for them: it may wait until it
+/// knows who sends them. What has come waits here.
+class FrameQueue {
  public:
   void add(rti::Bytes bytes) {
-    if (bytes.empty()) return;
-    if (begin_ > 0)
-      bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_)),
-          begin_ = 0;
-    const std::size_t before = bytes_.size();
-    bytes_.resize(before + bytes.size());
-    std::memcpy(bytes_.data() + before, bytes.data(), bytes.size());
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(begin_));
+    begin_ = 0;
+    waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
   }
-  /// The next whole frame; nothing if there is none yet, or none ever because of `is_broken`.
+  /// The next whole frame of at most `length_max` bytes; nothing if there is none yet, or none ever
+  /// because of `is_broken`.
   std::optional<Frame> next(std::uint32_t length_max) {
-    const std::span<const std::uint8_t> rest = std::span(bytes_).subspan(begin_);
-    if (is_broken_ || rest.size() < frame_head) return std::nullopt;
-    std::uint32_t length = 0;
-    for (std::size_t k = 0; k < 4; ++k) length |= static_cast<std::uint32_t>(rest[k]) << (8 * k);
-    is_broken_ =
-        length == 0 || length > length_max || rest[4] > static_cast<std::uint8_t>(frame_kind_max);
-    if (is_broken_ || rest.size() < length + std::size_t{4}) return std::nullopt;
-    Frame frame{static_cast<FrameKind>(rest[4]), std::vector<std::uint8_t>(length - 1)};
-    if (length > 1) std::memcpy(frame.content.data(), rest.data() + frame_head, length - 1);
-    begin_ += length + std::size_t{4};
+    if (is_broken_) return std::nullopt;
+    rti::Bytes rest = rti::Bytes(waiting_).subspan(begin_), payload;
+    is_broken_ = reader_.next(rest, length_max, payload) != rti::Framing::sound;
+    begin_ = waiting_.size() - rest.size();
+    if (is_broken_ || payload.empty()) return std::nullopt;
+    std::optional<Frame> frame = frame_of(payload);
+    is_broken_ = !frame;
     return frame;
   }
   bool is_broken() const { return is_broken_; }
 
  private:
-  std::vector<std::uint8_t> bytes_;
-  std::size_t begin_ = 0;
+  rti::FrameReader reader_;
+  std::vector<std::byte> waiting_;
+  std::size_t begin_ = 0;  ///< of what `reader_` has not seen
   bool is_broken_ = false;
 };
 

@@ -119,7 +119,7 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
     bool is_parted = false;
     std::string loss;  ///< why it is gone, if it is
     double since_s = 0.0, received_s = 0.0, sent_s = 0.0;
-    FrameReader reader;
+    FrameQueue reader;
     std::optional<Greeting> early;  ///< came before the own number was known
     std::optional<Hello> asking;    ///< came before the own number was known, too
     std::deque<std::vector<std::uint8_t>> inbox;

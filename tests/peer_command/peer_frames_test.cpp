@@ -1,0 +1,54 @@
+// The frames between peers: as the RTI's, whole however they are cut, broken by what is none.
+#include "game/net/peer/network/frames.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace rink::game {
+namespace {
+
+TEST(PeerFrames, AreThoseOfTheRti) {
+  const std::vector<std::uint8_t> content{1, 2, 3};
+  rti::FrameWriter writer(100);
+  std::vector<std::byte>& message = writer.begin_message(4);
+  message.push_back(static_cast<std::byte>(FrameKind::mail));
+  for (const std::uint8_t byte : content) message.push_back(static_cast<std::byte>(byte));
+  writer.appended();
+  const std::vector<std::uint8_t> ours = framed(FrameKind::mail, content);
+  EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(ours)), writer.bytes()));
+}
+
+TEST(PeerFrames, ComeWholeHoweverTheyAreCutAndWaitUntilTheyAreTaken) {
+  std::vector<std::uint8_t> stream = framed(FrameKind::hello, std::vector<std::uint8_t>(300, 7));
+  for (const std::uint8_t byte : framed(FrameKind::sign, {})) stream.push_back(byte);
+  for (const std::size_t cut : {1u, 4u, 5u, 305u, 306u, 308u}) {
+    FrameQueue frames;
+    const rti::Bytes all = std::as_bytes(std::span(stream));
+    frames.add(all.first(cut));
+    std::optional<Frame> first = frames.next(1000);
+    frames.add(all.subspan(cut));
+    if (!first) first = frames.next(1000);
+    ASSERT_TRUE(first) << "cut at " << cut;
+    EXPECT_EQ(first->content, std::vector<std::uint8_t>(300, 7));
+    const std::optional<Frame> second = frames.next(1000);
+    ASSERT_TRUE(second) << "cut at " << cut;
+    EXPECT_EQ(second->kind, FrameKind::sign);
+    EXPECT_FALSE(frames.next(1000) || frames.is_broken());
+  }
+}
+
+TEST(PeerFrames, BreakAtALengthOfNoneOrTooMuchAndAtAKindThatIsNone) {
+  const auto is_broken = [](const std::vector<std::uint8_t>& bytes) {
+    FrameQueue frames;
+    frames.add(std::as_bytes(std::span(bytes)));
+    return !frames.next(100) && frames.is_broken() && !frames.next(100);
+  };
+  EXPECT_TRUE(is_broken({0, 0, 0, 0, 0}));
+  EXPECT_TRUE(is_broken({101, 0, 0, 0}));
+  EXPECT_TRUE(is_broken({1, 0, 0, 0, static_cast<std::uint8_t>(frame_kind_max) + 1}));
+  EXPECT_FALSE(is_broken({100, 0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace rink::game
