@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "game/net/peer/network/greetings.h"
-#include "game/net/peer/network/peer_network.h"
+#include "game/net/peer/network/session_error.h"
 #include "game/peer/protocol.h"
 #include "rti/transport/mpi/ranks.h"
 
