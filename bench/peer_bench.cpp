@@ -147,7 +147,7 @@ void share(benchmark::State& state, std::uint32_t count, double packing) {
       ghost_events += static_cast<double>(now.ghost_events - then.ghost_events),
           own_events += static_cast<double>(now.own_events - then.own_events);
       for (const std::uint32_t body : share.peer->owned())
-        different += peer::bytes_of(share.peer->state(body)) !=
+        different += peer::bytes_of(share.peer->share().state(body)) !=
                      peer::bytes_of(physics::Subdomain::state_in(whole, body)),
             ++owned;
     }

@@ -47,15 +47,15 @@ void Assembly::advance() {
     exchange_all([](Peer& from, PeerNumber to) { return from.claims_for(to); });
     for (Peer& peer : peers_) peer.judge();
     if (!accusation().empty()) throw std::logic_error(accusation());
-    exchange_all([](Peer& from, PeerNumber) { return from.verdict(); });
+    exchange_all([](Peer& from, PeerNumber) { return from.verdicts().own(); });
     Outcome outcome = Outcome::final;
     for (Peer& peer : peers_) outcome = peer.conclude();
     if (outcome == Outcome::final) break;
     exchange_all([](Peer& from, PeerNumber to) {
-      return from.repeats(to) ? from.handover_for_repeat(to) : Handover{};
+      return from.verdicts().repeats(to) ? from.handover_for_repeat(to) : Handover{};
     });
     for (Peer& peer : peers_)
-      if (peer.repeats(peer.number())) peer.replay();
+      if (peer.verdicts().repeats(peer.number())) peer.replay();
   }
   ++count_;
   if (next_division_)
@@ -78,8 +78,8 @@ void Assembly::note_owners() {
 
 std::string Assembly::accusation() const {
   for (const Peer& peer : peers_)
-    if (!peer.accusation().empty())
-      return "at peer " + std::to_string(peer.number()) + ": " + peer.accusation();
+    if (peer.accusation().is_made())
+      return "at peer " + std::to_string(peer.number()) + ": " + peer.accusation().text();
   return {};
 }
 

@@ -34,7 +34,7 @@ class Assembly {
   /// The state of the body at its owner, which is searched.
   BodyState state(std::uint32_t body) const {
     assert(body < owners_.size() && owners_[body] < peers_.size());
-    return peers_[owners_[body]].state(body);
+    return peers_[owners_[body]].share().state(body);
   }
   /// The number of bodies without exactly one owner.
   std::uint32_t misowned() const { return misowned_; }

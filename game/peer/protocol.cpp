@@ -28,7 +28,7 @@ void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& mak
     if (from == peer.number()) continue;
     receive<decltype(make(from))>(peer, from, mail.receive(from));
   }
-  if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
+  if (peer.accusation().is_made()) throw ProtocolError(peer.accusation().text());
 }
 
 /// True for a body of which the engine's hash has no more than its flight.
@@ -52,11 +52,11 @@ std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber pe
 }
 
 void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
-  const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdict()));
+  const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdicts().own()));
   assert(verdicts.size() == peer_count && "who carries the mail gives one of each");
   for (PeerNumber from = 0; from < peer_count; ++from)
     if (from != peer.number()) receive<Verdict>(peer, from, verdicts[from]);
-  if (!peer.accusation().empty()) throw ProtocolError(peer.accusation());
+  if (peer.accusation().is_made()) throw ProtocolError(peer.accusation().text());
 }
 
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
@@ -70,7 +70,7 @@ Handover own_bodies(const Peer& peer) {
   Handover all;
   const physics::WorldSpec& spec = peer.world().spec();
   for (const std::uint32_t body : peer.owned()) {
-    const BodyState state = peer.state(body);
+    const BodyState state = peer.share().state(body);
     if (state.flags == 0 && flies_straight(state, spec) && !spec.surface_friction)
       all.free_flights.push_back(FreeFlightState::of(body, state.flight));
     else all.bodies.push_back({body, state});

@@ -115,9 +115,11 @@ void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agr
     sending(Subject::handover);
     if (peer.conclude() == Outcome::final) break;
     exchange(
-        [&](PeerNumber to) { return peer.repeats(to) ? peer.handover_for_repeat(to) : Handover{}; },
+        [&](PeerNumber to) {
+          return peer.verdicts().repeats(to) ? peer.handover_for_repeat(to) : Handover{};
+        },
         nullptr);
-    if (peer.repeats(peer.number())) peer.replay();
+    if (peer.verdicts().repeats(peer.number())) peer.replay();
   }
   if (hooks.when_final) hooks.when_final();
   exchange([&](PeerNumber to) { return peer.handover_for(to, next); }, hooks.when_told);

@@ -28,7 +28,7 @@ void WindowPlay::receive_from_all() {
     received_ -= inboxes_[from].empty();
     peer_.receive(from, std::move(message));
   }
-  if (!peer_.accusation().empty()) throw ProtocolError(peer_.accusation());
+  if (peer_.accusation().is_made()) throw ProtocolError(peer_.accusation().text());
 }
 
 void WindowPlay::begin(double next) {
@@ -66,8 +66,8 @@ void WindowPlay::advance() {
     case Step::claims:
       receive_from_all<Claims>();
       peer_.judge();
-      if (!peer_.accusation().empty()) throw ProtocolError(peer_.accusation());
-      send_to_all(Subject::verdict, [&](PeerNumber) { return peer_.verdict(); });
+      if (peer_.accusation().is_made()) throw ProtocolError(peer_.accusation().text());
+      send_to_all(Subject::verdict, [&](PeerNumber) { return peer_.verdicts().own(); });
       step_ = Step::verdicts;
       return;
     case Step::verdicts:
@@ -79,14 +79,14 @@ void WindowPlay::advance() {
         if (on_final) on_final();
       } else {
         send_to_all(Subject::handover, [&](PeerNumber to) {
-          return peer_.repeats(to) ? peer_.handover_for_repeat(to) : Handover{};
+          return peer_.verdicts().repeats(to) ? peer_.handover_for_repeat(to) : Handover{};
         });
         step_ = Step::repeats;
       }
       return;
     case Step::repeats:
       receive_from_all<Handover>();
-      if (peer_.repeats(peer_.number())) peer_.replay();
+      if (peer_.verdicts().repeats(peer_.number())) peer_.replay();
       send_to_all(Subject::claims, [&](PeerNumber to) { return peer_.claims_for(to); });
       step_ = Step::claims;
       return;

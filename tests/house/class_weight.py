@@ -17,7 +17,7 @@ EXCEPTED = {"Ambassador", "FederateAmbassador", "CallbackQueue", "BodyState", "C
 
 # Not divided yet: how many functions and data members each has, which may only shrink.
 UNDIVIDED = {
-    "Peer": (100, 62), "Session": (63, 24),
+    "Session": (63, 24),
 }
 
 FOLDERS = ("rti", "im", "game", "loadgen", "bench")

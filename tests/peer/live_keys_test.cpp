@@ -39,7 +39,7 @@ class LiveGame {
       owners_[body] = division_.owner_of(scene_.world.position({body}));
     }
     for (Peer& peer : assembly_.peers())
-      for (const auto& [bat, seat] : seats_) peer.seat(seat);
+      for (const auto& [bat, seat] : seats_) peer.players().seat(seat);
   }
 
   void play(int window_count, Counts& counts) {
@@ -72,8 +72,8 @@ class LiveGame {
           wishes_[key.bat]
               .front();  // none is lost, none comes twice, in the order in which they were pressed
       EXPECT_EQ(key.input, wish.press.input);
-      EXPECT_EQ(key.time,
-                std::clamp(wish.press.time, wish.window_end, wish.window_end + Peer::ahead_max));
+      EXPECT_EQ(key.time, std::clamp(wish.press.time, wish.window_end,
+                                     wish.window_end + LivePlayers::ahead_max));
       counts.timed_keys += key.time != wish.window_end;
       wishes_[key.bat].pop_front();
     }
@@ -101,7 +101,7 @@ class LiveGame {
         wanted = std::max(wanted, now + uniform(random_, -1.0, 3.0) * window_);
         const Press press{observation.bat, Vector2(x, y) * 6.0,
                           static_cast<std::uint8_t>(1 + counts.observations % 200), wanted};
-        peer.press(observation.owner, press);
+        peer.players().press(observation.owner, press);
         wishes_[observation.bat].push_back({press, peer.end()});
         counts.foreign_keys += owner != peer.number();
       }
@@ -144,8 +144,8 @@ TEST(LiveKeys, OfABatThatSomebodyElsePlaysAreAnAccusation) {
   std::uint32_t bat = 0;
   while (scene.world.kind({bat}) != physics::BodyKind::bat) ++bat;
   Assembly assembly(scene.world, Division::into_strips(scene.world.spec().field, 2), 0.2, 0.01);
-  for (Peer& peer : assembly.peers()) peer.seat({.bat = bat, .peer = 0});
-  assembly.peers()[1].press(0, {bat, {1.0, 0.0}, 1});
+  for (Peer& peer : assembly.peers()) peer.players().seat({.bat = bat, .peer = 0});
+  assembly.peers()[1].players().press(0, {bat, {1.0, 0.0}, 1});
   try {
     assembly.advance();
     ADD_FAILURE() << "nobody minds";

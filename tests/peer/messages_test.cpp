@@ -173,7 +173,7 @@ TEST(Peer, NamesWhoClaimsABodyThatIsNotItsOwn) {
   two.left.receive(1, claims);
   EXPECT_FALSE(two.left.judge().accepts);
   EXPECT_EQ(
-      two.left.accusation(),
+      two.left.accusation().text(),
       "peer 1 claims body " + std::to_string(two.left.owned().front()) + ", which it does not own");
 }
 
@@ -183,7 +183,7 @@ TEST(Peer, NamesWhoCountsOtherwise) {
   ++claims.known_count;
   two.left.receive(1, claims);
   EXPECT_FALSE(two.left.judge().accepts);
-  EXPECT_THAT(two.left.accusation(), testing::StartsWith("peer 1 counts"));
+  EXPECT_THAT(two.left.accusation().text(), testing::StartsWith("peer 1 counts"));
 }
 
 TEST(Peer, NamesWhoHandsOverABodyThatIsNotItsOwn) {
@@ -194,13 +194,13 @@ TEST(Peer, NamesWhoHandsOverABodyThatIsNotItsOwn) {
   ASSERT_EQ(two.left.conclude(), Outcome::final);
   ASSERT_EQ(two.right.conclude(), Outcome::final);
   Handover handover = two.right.handover_for(0, 0.02);
-  const std::vector<std::uint8_t> before = bytes_of(two.left.state(body));
-  handover.bodies.push_back({body, two.right.state(two.right.owned().front())});
+  const std::vector<std::uint8_t> before = bytes_of(two.left.share().state(body));
+  handover.bodies.push_back({body, two.right.share().state(two.right.owned().front())});
   two.left.receive(1, handover);
   two.left.commit(0.02);
-  EXPECT_EQ(two.left.accusation(),
+  EXPECT_EQ(two.left.accusation().text(),
             "peer 1 hands over body " + std::to_string(body) + ", which it does not own");
-  EXPECT_EQ(bytes_of(two.left.state(body)), before);
+  EXPECT_EQ(bytes_of(two.left.share().state(body)), before);
 }
 
 /// A ghost is hit by somebody who is too far off to be known here, far from all that the peer owns:
@@ -233,12 +233,13 @@ TEST(Peer, KnowsOfAGhostThatWentAstrayWhereItWasWhenTheWindowBegan) {
   left.receive(1, right.handover_for(0, 0.04)), right.receive(0, left.handover_for(1, 0.04));
   left.commit(0.04), right.commit(0.04);
   for (const Peer* peer : {&left, &right}) {
-    const bool has_it = peer->owns(ghost) || std::ranges::binary_search(peer->ghosts(), ghost);
+    const bool has_it =
+        peer->share().owns(ghost) || std::ranges::binary_search(peer->ghosts(), ghost);
     if (has_it) {
       EXPECT_EQ(peer->known_place(ghost), there) << peer->number();
     }
   }
-  EXPECT_TRUE(left.owns(ghost) || std::ranges::binary_search(left.ghosts(), ghost));
+  EXPECT_TRUE(left.share().owns(ghost) || std::ranges::binary_search(left.ghosts(), ghost));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ inline void note_groups(SceneClasses& found, const Peer& peer, const Division& d
   for (const std::uint32_t body : peer.owned()) {
     if (!peer.world().is_held({body})) continue;
     std::set<PeerNumber> owners;
-    for (const std::uint32_t companion : peer.group_of(body))
+    for (const std::uint32_t companion : peer.share().subdomain().group_of(body))
       owners.insert(division.owner_of(peer.world().position({companion})));
     found.groups_across_borders += owners.size() >= 2,
         found.groups_across_three += owners.size() >= 3;

@@ -259,7 +259,8 @@ class Play {
   void expect_truth(Session& session) {
     if (session.window() == 0) return;
     for (const std::uint32_t body : session.peer().owned())
-      ASSERT_TRUE(bytes_of(session.peer().state(body)) == states_.at({session.window(), body}))
+      ASSERT_TRUE(bytes_of(session.peer().share().state(body)) ==
+                  states_.at({session.window(), body}))
           << "peer " << session.peer().number() << ", window " << session.window() << ", body "
           << body;
   }

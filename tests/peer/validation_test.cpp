@@ -287,17 +287,17 @@ struct HandOver {
     EXPECT_EQ(left.conclude(), Outcome::final);
     EXPECT_EQ(right.conclude(), Outcome::final);
     handover = right.handover_for(0, 0.02);
-    handover.bodies.push_back({right.owned().front(), right.state(right.owned().front())});
+    handover.bodies.push_back({right.owned().front(), right.share().state(right.owned().front())});
   }
   /// The left peer hears it, names the right one, takes nothing of it, and can go on.
   void expect_named(const char* fault) {
     left.receive(1, handover);
-    EXPECT_THAT(left.accusation(), StartsWith("peer 1 "));
-    EXPECT_THAT(left.accusation(), HasSubstr(fault));
+    EXPECT_THAT(left.accusation().text(), StartsWith("peer 1 "));
+    EXPECT_THAT(left.accusation().text(), HasSubstr(fault));
     left.commit(0.02);
     left.play();
     for (const std::uint32_t body : left.owned())
-      EXPECT_TRUE(std::isfinite(left.state(body).flight.vx));
+      EXPECT_TRUE(std::isfinite(left.share().state(body).flight.vx));
   }
 };
 

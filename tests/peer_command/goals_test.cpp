@@ -57,7 +57,7 @@ class Notes final : public WindowParticipant {
   void after_window(const peer::Session& session) override {
     windows.push_back({session.peer().now(), {}});
     for (const std::uint32_t body : session.peer().owned())
-      windows.back().own.push_back({body, session.peer().state(body)});
+      windows.back().own.push_back({body, session.peer().share().state(body)});
     repeats = session.counters().peer.repeats, stretches = session.counters().peer.windows;
   }
   std::vector<Window> windows;

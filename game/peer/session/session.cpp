@@ -53,7 +53,7 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
   for (const auto& [body, state] : near) peer_->consider(body, state);
   for (const Key& key : settings_.keys) peer_->press_first(key);
   for (const Player& player : now_.players)
-    for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
+    for (const Seat& seat : settings_.seats_of(player)) peer_->players().seat(seat);
   if (settings_.is_replicated) peer_->keep_changes();
   peer_->begin(settings_.end_of(1));
   if constexpr (checks_whole_structures) now_.check();
@@ -141,7 +141,8 @@ void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
   if (meanwhile) meanwhile();
   for (const PeerNumber from : now_.members)
     if (from != settings_.number) peer_->receive(from, received<decltype(make(from))>(from));
-  if (!peer_->accusation().empty()) give_up(peer_->reported(), peer_->accusation());
+  if (const Accusation& found = peer_->accusation(); found.is_made())
+    give_up(found.peer(), found.text());
 }
 
 /// A peer that sends an impossible message counts as lost.
@@ -166,8 +167,7 @@ void Session::play_window() {
 }
 
 void Session::play_stretch() {
-  peer_->wish_to_leave(wishes_to_leave_);
-  if (settings_.is_replicated) announce();
+  announce();
   assert(now_.has(settings_.number));
   State next = now_;
   double next_end = 0.0;
@@ -183,7 +183,7 @@ void Session::play_stretch() {
   // sent.
   const auto agree_all = [&] {
     settings_.is_replicated || settings_.goals
-        ? exchange([&](PeerNumber) { return peer_->verdict(); })
+        ? exchange([&](PeerNumber) { return peer_->verdicts().own(); })
         : peer::agree(*peer_, settings_.peer_count, mail_);
   };
   const auto exchange_all = [&](auto&& make, const std::function<void()>& meanwhile) {
@@ -227,7 +227,7 @@ State Session::after_stretch() const {
   give_zones(next);
   for (const PeerNumber peer : now_.members) {
     const std::vector<PeerNumber> zoned = next.cuts.peers();
-    if (next.has(peer) && peer_->verdict_of(peer).leaves && State::is_in(zoned, peer) &&
+    if (next.has(peer) && peer_->verdicts().of(peer).leaves && State::is_in(zoned, peer) &&
         zoned.size() > 1)
       next.cuts = next.cuts.without(peer), ++next.zones;
   }
@@ -243,7 +243,7 @@ void Session::balance(State& next) const {
   assert(next.events.size() <= now_.slots && next.members.size() > 0);
   next.events.resize(now_.slots, 0.0);
   for (const PeerNumber peer : now_.members)
-    next.events[peer] += static_cast<double>(peer_->verdict_of(peer).events);
+    next.events[peer] += static_cast<double>(peer_->verdicts().of(peer).events);
   if (++next.counted_windows < settings_.balance_windows && next.zones == now_.zones) return;
   const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0),
                mean = all / static_cast<double>(next.members.size());
@@ -297,7 +297,7 @@ void Session::adopt(State next) {
 }
 
 void Session::press(const Observation& seen, const Press& press) {
-  peer_->press(seen.owner, press);
+  peer_->players().press(seen.owner, press);
   if (settings_.is_replicated) sent_.push_back({now_.step + 1, press});
 }
 

@@ -18,7 +18,7 @@ void Session::count_goals(State& next) const {
   if (!settings_.goals) return;
   std::vector<Goal> goals;
   for (const PeerNumber peer : now_.members) {
-    for (const Goal& goal : peer_->verdict_of(peer).goals) {
+    for (const Goal& goal : peer_->verdicts().of(peer).goals) {
       const auto is_of_it = [&](const auto& other) { return other.puck == goal.puck; };
       const bool can_be =
           whole_.has_puck(goal.puck) && goal.time >= now_.time - 1e-9 &&
@@ -53,7 +53,8 @@ bool Session::put_back(const FaceOff& due) {
     FaceOffWord word{.puck = due.puck, .taken = 0, .body = {}};
     for (std::size_t k = 0; k < places.size(); ++k)
       if (!peer_->world().is_free(places[k], radius)) word.taken |= std::uint64_t{1} << k;
-    if (peer_->owns(due.puck)) word.body.push_back({due.puck, peer_->state(due.puck)});
+    if (peer_->share().owns(due.puck))
+      word.body.push_back({due.puck, peer_->share().state(due.puck)});
     const std::uint64_t taken = agree_on(word);
     const auto free = static_cast<std::size_t>(std::countr_one(taken));
     if (free < places.size()) {

@@ -23,8 +23,9 @@ const Candidate* find(const std::vector<Candidate>& candidates, std::uint64_t to
 
 }  // namespace
 
-/// Puts newcomers into this window's verdict.
+/// Puts newcomers, and a wish to leave, into this window's verdict.
 void Session::announce() {
+  if (!settings_.is_replicated) return peer_->announce(wishes_to_leave_, {});
   for (Newcomer& newcomer : mail_.callers()) asking_.push_back(std::move(newcomer));
   Admission own_word;
   own_word.asking.assign(asking_.begin(),
@@ -35,7 +36,7 @@ void Session::announce() {
     if (candidate.sponsor == settings_.number && mail_.has_given_up(candidate.number))
       own_word.withdrawn.push_back(candidate.number);
   }
-  peer_->announce(std::move(own_word));
+  peer_->announce(wishes_to_leave_, std::move(own_word));
 }
 
 /// Gives new members half of the zone of the busiest peer since zones changed last.
@@ -46,7 +47,7 @@ void Session::give_zones(State& next) const {
     PeerNumber busiest = 0;
     for (const PeerNumber peer : next.cuts.peers()) {
       const double counted = peer < now_.events.size() ? now_.events[peer] : 0.0;
-      const std::pair load(counted + static_cast<double>(peer_->verdict_of(peer).events),
+      const std::pair load(counted + static_cast<double>(peer_->verdicts().of(peer).events),
                            next.cuts.area_of(peer));
       if (!most || load > *most) most = load, busiest = peer;
     }
@@ -80,13 +81,13 @@ void Session::admit(State& next) const {
   };
   const auto is_reached = [&](PeerNumber candidate) {
     return std::all_of(now_.members.begin(), now_.members.end(), [&](PeerNumber peer) {
-      return !next.has(peer) || is_among(peer_->verdict_of(peer).admission.reached, candidate);
+      return !next.has(peer) || is_among(peer_->verdicts().of(peer).admission.reached, candidate);
     });
   };
   std::erase_if(next.admitted, [&](const Candidate& one) { return !next.has(one.number); });
   std::erase_if(next.candidates, [&](const Candidate& one) {
     return !stays(one.sponsor) ||
-           is_among(peer_->verdict_of(one.sponsor).admission.withdrawn, one.number);
+           is_among(peer_->verdicts().of(one.sponsor).admission.withdrawn, one.number);
   });
   if (next.window + 2 > settings_.window_count || next.scoring.is_over) next.candidates.clear();
   const auto first = std::find_if(next.candidates.begin(), next.candidates.end(),
@@ -104,7 +105,7 @@ void Session::admit(State& next) const {
   }
   for (const PeerNumber sponsor : now_.members) {
     if (!stays(sponsor)) continue;
-    for (const Newcomer& newcomer : peer_->verdict_of(sponsor).admission.asking) {
+    for (const Newcomer& newcomer : peer_->verdicts().of(sponsor).admission.asking) {
       if (objection(next, newcomer)) continue;
       next.candidates.push_back({next.next_number++, sponsor, next.bats_taken, newcomer});
       next.bats_taken += newcomer.bat_count;
@@ -121,7 +122,7 @@ void Session::greet(const State& next) {
     mail_.admit(peer, true);
     mail_.send(peer, std::move(bytes));
     peer_->set_present(peer, true);
-    for (const Seat& seat : settings_.seats_of(next.players.back())) peer_->seat(seat);
+    for (const Seat& seat : settings_.seats_of(next.players.back())) peer_->players().seat(seat);
   }
   for (const Candidate& one : now_.candidates)
     if (!find(next.candidates, one.newcomer.token) && !next.has(one.number))
@@ -129,7 +130,7 @@ void Session::greet(const State& next) {
   for (const Candidate& one : next.candidates)
     if (!find(now_.candidates, one.newcomer.token))
       mail_.expect(one, one.sponsor == settings_.number, next);
-  for (const Newcomer& newcomer : peer_->verdict().admission.asking) {
+  for (const Newcomer& newcomer : peer_->verdicts().own().admission.asking) {
     if (!find(next.candidates, newcomer.token)) {
       const auto reason = objection(next, newcomer);
       mail_.refuse(newcomer.token, reason.value_or("the peer that was asked is leaving"), !reason);

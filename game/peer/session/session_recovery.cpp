@@ -223,11 +223,10 @@ void Session::enter(const State& next, std::span<const Handover> shares) {
   for (PeerNumber peer = 0; peer < next.slots; ++peer) peer_->set_present(peer, next.has(peer));
   for (const Player& player : next.players)
     if (next.has(player.peer))
-      for (const Seat& seat : settings_.seats_of(player)) peer_->seat(seat);
+      for (const Seat& seat : settings_.seats_of(player)) peer_->players().seat(seat);
   const double time = next.time;
-  peer_->enter(static_cast<std::uint32_t>(next.step),
-               time);  // it counts stretches, of which a window may have several
-  for (const Handover& share : shares) peer_->take(share);
+  // It counts stretches, of which a window may have several.
+  peer_->enter(static_cast<std::uint32_t>(next.step), time, shares);
   for (const Key& key : settings_.keys)
     if (next.time == 0.0 || key.time > time) peer_->press_first(key);
   peer_->keep_changes();
@@ -236,11 +235,11 @@ void Session::enter(const State& next, std::span<const Handover> shares) {
 
 /// Presses keys of undone windows again. Bats have other owners now, by their observations.
 void Session::press_again() {
-  std::vector<Observation> seen = peer_->observations_of_all(settings_.number);
+  std::vector<Observation> seen = peer_->players().all_for(settings_.number);
   for (const PeerNumber to : now_.members) {
     if (to == settings_.number) continue;
     Handover message;
-    message.observations = peer_->observations_of_all(to);
+    message.observations = peer_->players().all_for(to);
     mail_.send(to, written(message));
   }
   for (const PeerNumber from : now_.members) {
@@ -255,7 +254,7 @@ void Session::press_again() {
     if (sent.step < now_.step || observation == seen.end() || observation->owner >= now_.slots)
       continue;
     sent.step = now_.step + 1;
-    peer_->press(observation->owner, sent.press);
+    peer_->players().press(observation->owner, sent.press);
   }
 }
 

@@ -210,7 +210,7 @@ std::vector<std::byte> SenderInterest::updates_for(
   const physics::World& world = peer.world();
   for (const std::uint32_t body : peer.owned()) {
     const std::optional<std::uint32_t> newly_felt = felt(body);
-    const bool is_told = contains(scope, body) && !peer.will_have(player, body);
+    const bool is_told = contains(scope, body) && !peer.share().will_have(player, body);
     if (!is_told) {
       if (newly_felt) put(body, Form::felt, *newly_felt, {});
       continue;
@@ -236,7 +236,7 @@ std::vector<std::byte> SenderInterest::updates_for(
   handed_over_[player].clear();
   for (const std::uint32_t body : sent) {
     if (contains(now_sent, body)) continue;
-    if (!peer.owns(body)) handed_over_[player].push_back(body);
+    if (!peer.share().owns(body)) handed_over_[player].push_back(body);
     else if (!contains(scope, body)) put(body, Form::left, 0, {});
   }
   sent = std::move(now_sent);

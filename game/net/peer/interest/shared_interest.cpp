@@ -159,8 +159,8 @@ void SharedInterest::look_around() {
 std::optional<physics::Vector2> SharedInterest::bat_place() {
   const Replica& replica = replicas_.replica(bat());
   // In a window that is cut short it may have left since places were noted.
-  const bool is_here =
-      peer_.owns(bat()) || std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
+  const bool is_here = peer_.share().owns(bat()) ||
+                       std::binary_search(peer_.ghosts().begin(), peer_.ghosts().end(), bat());
   std::optional<physics::Vector2> place;
   if (is_here) place = peer_.world().position({bat()});
   else if (replica.is_there) place = replica.position_at(peer_.now());

@@ -1,0 +1,60 @@
+// Others' claims against the own run: docs/peer-to-peer.md, "The rule".
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "game/peer/messages.h"
+#include "game/peer/window/accusation.h"
+#include "game/peer/window/claim_trace.h"
+#include "game/peer/window/halos.h"
+#include "game/peer/window/homes.h"
+#include "game/peer/window/share.h"
+
+namespace rink::peer {
+
+/// Finds ghosts that were not what their owners say, and whether that may concern an own body.
+class ClaimCheck {
+ public:
+  /// All must outlive it.
+  ClaimCheck(const Share& share, const Halos& halos, const Homes& homes, const ClaimTrace& trace,
+             Accusation& accusation);
+
+  void receive(PeerNumber from, Claims claims);
+  /// The keys in the last claims of a peer, once.
+  std::vector<Press> take_presses(PeerNumber from);
+  /// True if claims name the window, and the bodies that are expected of each peer.
+  bool are_possible(const Window& window);
+  /// After `are_possible` was true: checks parts (a) and (b) of the rule.
+  bool agree(const Window& window);
+  /// Reports the owner of the first doubtful ghost, if there is one.
+  void blame_doubted();
+
+  /// Whether the ghost, after `agree`, ceased to be what its owner says.
+  bool is_doubtful(std::uint32_t ghost) const;
+  /// Corrects doubtful ghosts in this share, which is the one that it was made for, and forgets
+  /// them.
+  void correct(Share& share);
+  void make_room(PeerNumber peer_count);
+
+ private:
+  using Flights = std::span<const ClaimedFlight>;
+  double first_difference(std::uint32_t ghost, Flights claimed, const Window& window,
+                          std::vector<PathFlight>& beyond) const;
+  std::vector<Flights> sort_claims(const Window& window, std::vector<PathFlight>& beyond) const;
+  bool may_touch_own(const PathFlight& foreign) const;
+  bool has_doubtful(const ClaimTrace::Event& event) const;
+
+  const Share& share_;
+  const Halos& halos_;
+  const Homes& homes_;
+  const ClaimTrace& trace_;
+  Accusation& accusation_;
+  std::vector<Claims> claims_;    ///< by peer
+  std::vector<double> doubts_;    ///< by place of the ghost: when it ceases to be what its owner
+                                  ///< says [s]; never, as a rule
+  std::vector<bool> is_unmoved_;  ///< its owner says that nothing happened to it
+};
+
+}  // namespace rink::peer

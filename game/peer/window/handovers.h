@@ -1,0 +1,51 @@
+// What peers hand over to each other between two windows, or before one is repeated.
+#pragma once
+
+#include <vector>
+
+#include "game/peer/messages.h"
+#include "game/peer/window/accusation.h"
+#include "game/peer/window/claim_check.h"
+#include "game/peer/window/claim_trace.h"
+#include "game/peer/window/halos.h"
+#include "game/peer/window/homes.h"
+#include "game/peer/window/share.h"
+#include "game/peer/window/timed_keys.h"
+#include "game/peer/window/window.h"
+
+namespace rink::peer {
+
+class Handovers {
+ public:
+  /// All must outlive it.
+  Handovers(Share& share, const Halos& halos, const TimedKeys& keys, Accusation& accusation);
+
+  /// Own bodies that `peer` repeats the window with, and has not had so far.
+  Handover for_repeat(PeerNumber peer, const Window& window);
+  /// For the next window, which ends at `until` [s]: what `peer` will own, and what will be in its
+  /// halo. What it has already is left out unless it changed.
+  Handover for_next(PeerNumber peer, const Window& window, double until, const Homes& homes,
+                    const ClaimTrace& trace);
+
+  void receive(PeerNumber from, Handover handover);
+  /// Before doubtful ghosts are corrected: bodies that had only free impacts get the rest of their
+  /// states.
+  void complete(const ClaimCheck& check);
+  /// Puts the bodies that `from` has handed over, and returns its handover without those that it
+  /// does not own.
+  Handover enter(PeerNumber from);
+  void make_room(PeerNumber peer_count);
+
+ private:
+  void complete(Handover& handover, PeerNumber from, const ClaimCheck& check);
+  bool may_hand_over(PeerNumber from, std::uint32_t body) const;
+  void report(PeerNumber from, std::uint32_t body);
+
+  Share& share_;
+  const Halos& halos_;
+  const TimedKeys& keys_;
+  Accusation& accusation_;
+  std::vector<Handover> received_;  ///< by peer
+};
+
+}  // namespace rink::peer

@@ -1,0 +1,71 @@
+// Players whose bats move from owner to owner: what they see, and the keys that they press.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "game/peer/messages.h"
+#include "game/peer/window/accusation.h"
+#include "game/peer/window/halos.h"
+#include "game/peer/window/share.h"
+#include "game/peer/window/timed_keys.h"
+#include "game/peer/window/window.h"
+
+namespace rink::peer {
+
+/// A bat of a live player of `peer`, which observes the `puck_count` nearest pucks at `phase`,
+/// `phase` + `period`, ... [s], or at every window's end if `period` is 0.
+struct Seat {
+  std::uint32_t bat = 0;
+  PeerNumber peer = 0;
+  double period = 0.05, phase = 0.0;
+  std::uint32_t puck_count = 0;
+  /// True if an observation is due in the window from `begin` [s], not included, to `end`.
+  bool is_due(double begin, double end) const;
+};
+
+class LivePlayers {
+ public:
+  static constexpr double ahead_max = 1.0;  ///< s
+
+  /// All must outlive it.
+  LivePlayers(const Share& share, const Halos& halos, Accusation& accusation);
+
+  /// Between windows, equal at all peers: sets the player of the bat. One player for each.
+  void seat(const Seat& seat);
+  /// After a commit and before the claims of the next window: sends an own player's key to `owner`,
+  /// which the newest observation of the bat names. The owner stamps it with the end of that window
+  /// or, if later, with its own instant, at most `ahead_max` later; the instants of a player's keys
+  /// must not fall.
+  void press(PeerNumber owner, const Press& press);
+  /// The keys that wait for this owner's claims, which they leave with.
+  std::vector<Press> take_presses(PeerNumber owner);
+  /// Stamps the keys that `from` presses on own bats in the window that ends at `end` [s].
+  void stamp(PeerNumber from, std::span<const Press> presses, double end, TimedKeys& keys);
+
+  /// The observations of own bats whose players, at that peer, are due at the window's end; or of
+  /// all of its bats that are own ones.
+  std::vector<Observation> due_for(PeerNumber player, const Window& window) const;
+  std::vector<Observation> all_for(PeerNumber player) const;
+  /// The observations for own players, since the last commit: from here at first, then from others.
+  const std::vector<Observation>& observations() const { return observations_; }
+  void observe(const Window& window) { observations_ = due_for(halos_.number(), window); }
+  void receive(PeerNumber from, std::vector<Observation> observations);
+  void make_room(PeerNumber peer_count);
+
+ private:
+  Observation observation_of(const Seat& seat) const;
+  bool plays(PeerNumber peer, std::uint32_t bat) const;
+
+  const Share& share_;
+  const Halos& halos_;
+  Accusation& accusation_;
+  std::vector<Seat> seats_;
+  std::vector<Observation> observations_;
+  std::vector<std::vector<Press>> presses_;  ///< by owner: to go with the next claims
+};
+
+}  // namespace rink::peer
