@@ -176,6 +176,24 @@ TEST(Handovers, BringWhatComesIntoAnotherHalo) {
   EXPECT_EQ(right.accusation.text(), "peer 0 hands over body 1, which it does not own");
 }
 
+/// Else a peer could press the keys of others' bats, and hold what they own.
+TEST(Handovers, BringNoKeysAndContactsOfOthers) {
+  Side left(meeting(), 0);
+  const Key key{0.1, 3, {1.0, 0.0}, 1};
+  left.handovers.receive(1, {.bodies = {}, .rest_contacts = {}, .keys = {key}, .observations = {}});
+  EXPECT_THAT(left.handovers.enter(1).keys, IsEmpty());
+  EXPECT_EQ(left.accusation.text(), "peer 1 hands over a key of bat 3, which it does not own");
+
+  Side other(meeting(), 0);
+  const std::vector<RestContact> contacts{{.low = 0, .high = 1, .axis = 0, .age = {}},
+                                          {.low = 0, .high = 2, .axis = 0, .age = {}}};
+  other.handovers.receive(
+      1, {.bodies = {}, .rest_contacts = contacts, .keys = {}, .observations = {}});
+  EXPECT_EQ(other.handovers.enter(1).rest_contacts.size(), 1u) << "body 1 is peer 1's";
+  EXPECT_EQ(other.accusation.text(),
+            "peer 1 hands over a rest contact of bodies 0 and 2, neither of which it owns");
+}
+
 TEST(Handovers, BringWhatARepetitionNeeds) {
   Side left(meeting(), 0);
   left.halos.set(1, infinity);

@@ -2,6 +2,7 @@
 #include "game/peer/session/part_replica.h"
 
 #include <cassert>
+#include <cmath>
 
 #include "game/peer/message_bytes.h"
 #include "im/basics/checked.h"
@@ -11,6 +12,20 @@ namespace rink::peer {
 std::vector<std::uint8_t> written(PartChange message) { return bytes_from(message); }
 bool read(std::span<const std::uint8_t> bytes, PartChange& message) {
   return read_whole(bytes, message);
+}
+
+std::optional<std::uint32_t> first_elsewhere(std::span<const Handover::Body> bodies, double time,
+                                             const Division& division,
+                                             std::span<const PeerNumber> owners) {
+  constexpr double rounding = 1e-6;  // m: far more than a place is rounded by
+  assert(std::isfinite(time));
+  for (const auto& [body, state] : bodies) {
+    const Box place = Box::around(state.motion().at(time).position, {0.0, 0.0});
+    if (std::ranges::none_of(
+            owners, [&](PeerNumber owner) { return division.is_near(owner, place, rounding); }))
+      return body;
+  }
+  return std::nullopt;
 }
 
 bool PartReplica::add(PartChange change) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "game/peer/division.h"
 #include "game/peer/messages.h"
 
 namespace rink::peer {
@@ -37,6 +39,12 @@ bool exchange(Stream& stream, PartChange& change) {
 }
 std::vector<std::uint8_t> written(PartChange message);
 bool read(std::span<const std::uint8_t> bytes, PartChange& message);
+
+/// The first of these bodies, at `time` [s], that is in none of the zones of `owners`; nothing if
+/// all are.
+std::optional<std::uint32_t> first_elsewhere(std::span<const Handover::Body> bodies, double time,
+                                             const Division& division,
+                                             std::span<const PeerNumber> owners);
 
 /// A peer's own part at a step.
 struct Part {

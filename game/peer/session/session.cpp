@@ -277,6 +277,9 @@ void Session::replica(const State& next, PartChange change) {
     if (from == settings_.number || !now_.has(from) || replica_of(from, next) != settings_.number)
       continue;
     auto kept = checked<PartChange>(from, next.time);
+    if (const auto body = first_elsewhere(kept.bodies, next.time, division_, {{from}}))
+      give_up(from, "peer " + std::to_string(from) + " sends body " + std::to_string(*body) +
+                        " as its own, which is in another's zone");
     if (kept.step != next.step || !replicas_[from].add(std::move(kept)))
       give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " +
                         std::to_string(next.step));

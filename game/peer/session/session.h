@@ -168,7 +168,7 @@ class Session {
   enum class Majority : std::uint8_t { none, doubtful, sure };
   Majority majority_of(std::vector<PeerNumber> voters) const;
   void require_majority();
-  std::vector<PeerNumber> stood_for() const;
+  std::vector<PeerNumber> stood_for(PeerNumber by) const;
   Handover share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to);
   void rebuild();
   void enter(const State& next, std::span<const Handover> shares);

@@ -45,6 +45,9 @@ bool Session::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> byte
   if (!loss.gone.empty() && loss.gone.back() >= now_.next_number)
     give_up(from, "peer " + std::to_string(from) + " sends the loss of peer " +
                       std::to_string(loss.gone.back()) + ", which never was");
+  if (loss.step > now_.step + 1)
+    give_up(from, "peer " + std::to_string(from) + " is at step " + std::to_string(loss.step) +
+                      ", here it is " + std::to_string(now_.step));
   if (std::find(loss.gone.begin(), loss.gone.end(), settings_.number) != loss.gone.end())
     halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
   const std::vector<PeerNumber> word_received = loss.gone, finished = loss.finished;
@@ -140,16 +143,16 @@ void Session::require_majority() {
        std::to_string(now_.members.size()) + " peers are left: it halts, for the others may go on");
 }
 
-/// This peer, and the lost ones of which it has a replica.
-std::vector<PeerNumber> Session::stood_for() const {
-  std::vector<PeerNumber> parts{settings_.number};
+/// That peer, and the lost ones of which it has a replica.
+std::vector<PeerNumber> Session::stood_for(PeerNumber by) const {
+  std::vector<PeerNumber> parts{by};
   for (const PeerNumber peer : now_.members) {
     if (!is_gone(peer) || now_.is_fresh(peer)) continue;
     const auto replica = replica_of(peer, now_);
     if (!replica || is_gone(*replica))
       halt("peers " + listed(gone_) + " are gone, and with them what peer " + std::to_string(peer) +
            " had");
-    if (replica == settings_.number) parts.push_back(peer);
+    if (replica == by) parts.push_back(peer);
   }
   return parts;
 }
@@ -180,7 +183,7 @@ Handover Session::share(std::span<const PeerNumber> parts, const Division& divis
 void Session::rebuild() {
   assert(std::ranges::adjacent_find(gone_, std::greater_equal<>()) == gone_.end());
   assert(std::ranges::includes(gone_, finished_) && !is_gone(settings_.number));
-  const std::vector<PeerNumber> parts = stood_for();
+  const std::vector<PeerNumber> parts = stood_for(settings_.number);
   State next = now_;
   ++next.step;
   const auto is_lost = [&](PeerNumber peer) { return is_gone(peer); };
@@ -201,8 +204,15 @@ void Session::rebuild() {
     mail_.send(to, std::move(bytes));
   }
   shares[settings_.number] = share(parts, division_, settings_.number);
-  for (const PeerNumber from : next.members)
-    if (from != settings_.number) shares[from] = checked<Handover>(from, next.time);
+  for (const PeerNumber from : next.members) {
+    if (from == settings_.number) continue;
+    shares[from] = checked<Handover>(from, now_.time);
+    // Else it would come before the share of who owns the body.
+    if (const auto body =
+            first_elsewhere(shares[from].bodies, now_.time, now_.division(), stood_for(from)))
+      give_up(from, "peer " + std::to_string(from) + " hands over body " + std::to_string(*body) +
+                        ", which is in another's zone");
+  }
   enter(next, shares);
   PartChange change = peer_->change(true);
   for (const PeerNumber peer : parts) {

@@ -114,6 +114,32 @@ bool Handovers::may_hand_over(PeerNumber from, std::uint32_t body) const {
          (roles.of(body) == Role::away || roles.has_ghost_of(from, body));
 }
 
+/// What is there of `from` in the next window is a ghost of its already, or comes with this.
+bool Handovers::brings(PeerNumber from, const Handover& handover, std::uint32_t body) const {
+  return body < share_.roles().body_count() &&
+         (share_.roles().has_ghost_of(from, body) ||
+          std::ranges::count(handover.bodies, body, &Handover::Body::number) > 0);
+}
+
+void Handovers::drop_keys(PeerNumber from, Handover& handover) {
+  std::erase_if(handover.keys, [&](const Key& key) {
+    if (brings(from, handover, key.bat)) return false;
+    accusation_.report(
+        from, "hands over a key of bat " + std::to_string(key.bat) + ", which it does not own");
+    return true;
+  });
+}
+
+void Handovers::drop_contacts(PeerNumber from, Handover& handover) {
+  std::erase_if(handover.rest_contacts, [&](const RestContact& rest) {
+    if (brings(from, handover, rest.low) || brings(from, handover, rest.high)) return false;
+    accusation_.report(from, "hands over a rest contact of bodies " + std::to_string(rest.low) +
+                                 " and " + std::to_string(rest.high) +
+                                 ", neither of which it owns");
+    return true;
+  });
+}
+
 Handover Handovers::enter(PeerNumber from) {
   assert(from < received_.size());
   Handover handover = std::exchange(received_[from], {});
@@ -122,6 +148,7 @@ Handover Handovers::enter(PeerNumber from) {
     report(from, body.number);
     return true;
   });
+  drop_keys(from, handover), drop_contacts(from, handover);
   for (const auto& [body, state] : handover.bodies)
     if (!share_.subdomain().is_there(body) || !are_same(share_.state(body), state))
       share_.put(body, state);

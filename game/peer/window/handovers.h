@@ -31,8 +31,8 @@ class Handovers {
   /// Before doubtful ghosts are corrected: bodies that had only free impacts get the rest of their
   /// states.
   void complete(const ClaimCheck& check);
-  /// Puts the bodies that `from` has handed over, and returns its handover without those that it
-  /// does not own.
+  /// Puts the bodies that `from` has handed over, and returns its handover without bodies, keys and
+  /// contacts of others.
   Handover enter(PeerNumber from);
   void make_room(PeerNumber peer_count);
 
@@ -40,6 +40,9 @@ class Handovers {
   void complete(Handover& handover, PeerNumber from, const ClaimCheck& check);
   bool may_hand_over(PeerNumber from, std::uint32_t body) const;
   void report(PeerNumber from, std::uint32_t body);
+  bool brings(PeerNumber from, const Handover& handover, std::uint32_t body) const;
+  void drop_keys(PeerNumber from, Handover& handover);
+  void drop_contacts(PeerNumber from, Handover& handover);
 
   Share& share_;
   const Halos& halos_;
