@@ -2,7 +2,6 @@
 #include "game/peer/session/session.h"
 
 #include <cassert>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -26,10 +25,12 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
     : settings_(std::move(settings)),
       mail_(mail),
       whole_(Whole::of(whole)),
-      validator_(whole),
+      agreement_(settings_, whole_),
       now_{.members = std::vector<PeerNumber>(settings_.peer_count), .cuts = cuts},
       before_(now_),
-      division_(cuts.division(settings_.peer_count)) {
+      division_(cuts.division(settings_.peer_count)),
+      replicas_(settings_.number),
+      inbox_(settings_, Validator(whole), mail, false) {
   assert(settings_.number < settings_.peer_count && settings_.halo > 0.0);
   assert(whole.now() == 0.0 && settings_.window_count > 0 && settings_.end_of);
   std::iota(now_.members.begin(), now_.members.end(), PeerNumber{0});
@@ -38,7 +39,7 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
   for (const Player& player : now_.players)
     now_.bats_taken = std::max(now_.bats_taken, player.first_bat + player.bat_count);
   before_ = now_;
-  make_room(now_.slots);
+  replicas_.make_room(now_.slots), inbox_.make_room(now_.slots);
   std::vector<Handover::Body> near;
   for (std::uint32_t body = 0; body < whole_.body_count; ++body)
     if (division_.is_near(settings_.number,
@@ -46,10 +47,10 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
                           settings_.halo) ||
         division_.owner_of(whole.position({body})) == settings_.number)
       near.push_back({body, physics::Subdomain::state_in(whole, body)});
-  if (settings_.is_replicated) keep_first_parts(whole);
+  if (settings_.is_replicated) replicas_.begin(whole, now_, division_);
   if (when_taken) when_taken();
   peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
-  peer_->validate_by(validator_);
+  peer_->validate_by(inbox_.validator());
   for (const auto& [body, state] : near) peer_->consider(body, state);
   for (const Key& key : settings_.keys) peer_->press_first(key);
   for (const Player& player : now_.players)
@@ -59,80 +60,6 @@ Session::Session(const physics::World& whole, const Cuts& cuts, SessionSettings 
   if constexpr (checks_whole_structures) now_.check();
 }
 
-void Session::make_room(PeerNumber slots) {
-  assert(replicas_.size() == losses_.size());
-  if (slots <= replicas_.size()) return;
-  replicas_.resize(slots);
-  losses_.resize(slots);
-}
-
-void Session::halt(const std::string& what) const {
-  if (is_newcomer_) throw SentAway(what);
-  throw Halt(what);
-}
-
-/// All peers know the start.
-void Session::keep_first_parts(const physics::World& whole) {
-  for (const PeerNumber peer : now_.members) {
-    if (peer != settings_.number && replica_of(peer, now_) != settings_.number) continue;
-    PartChange part{.step = 0,
-                    .time = 0.0,
-                    .is_whole = true,
-                    .bodies = {},
-                    .gone = {},
-                    .rest_contacts = {},
-                    .keys = {},
-                    .log = {}};
-    for (std::uint32_t body = 0; body < whole_.body_count; ++body)
-      if (division_.owner_of(whole.position({body})) == peer)
-        part.bodies.push_back({body, physics::Subdomain::state_in(whole, body)});
-    replicas_[peer].add(std::move(part));
-  }
-}
-
-/// The next peer in the ring of those with zones.
-std::optional<PeerNumber> Session::replica_of(PeerNumber peer, const State& state) const {
-  std::optional<PeerNumber> first;
-  for (const PeerNumber other : state.cuts.peers()) {
-    if (other == peer) continue;
-    if (other > peer) return other;
-    if (!first) first = other;
-  }
-  return first;
-}
-
-template <class Message>
-Message Session::received(PeerNumber from) {
-  for (;;) {
-    const std::vector<std::uint8_t> bytes = mail_.receive(from);
-    Message message;
-    if (read(bytes, message)) return message;
-    // Losses from which this peer has recovered already are ignored.
-    if (learns_of_loss(from, bytes)) throw PeerGone(losses_[from]->gone.front(), false, last_loss_);
-  }
-}
-
-/// Receives a message and validates it: its states are those of the instant `now` [s]. The own peer
-/// checks messages for it itself.
-template <class Message>
-Message Session::checked(PeerNumber from, double now) {
-  Message message = received<Message>(from);
-  if (const std::string fault = validator_.fault_of(message, now); !fault.empty())
-    give_up(from, "peer " + std::to_string(from) + " " + fault);
-  return message;
-}
-
-/// The bodies are not played any more, so their contacts are left out.
-Handover Session::final_handover(PeerNumber from) {
-  Handover part = received<Handover>(from);
-  if (const std::string fault = validator_.fault_of(part.keys); !fault.empty())
-    give_up(from, "peer " + std::to_string(from) + " " + fault);
-  return part;
-}
-
-template FaceOffWord Session::checked<FaceOffWord>(PeerNumber from, double now);
-template Handover Session::checked<Handover>(PeerNumber from, double now);
-
 /// Sends what `make(to)` makes to all members, and receives theirs.
 template <class Make>
 void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
@@ -140,24 +67,19 @@ void Session::exchange(Make&& make, const std::function<void()>& meanwhile) {
     if (to != settings_.number) mail_.send(to, written(make(to)));
   if (meanwhile) meanwhile();
   for (const PeerNumber from : now_.members)
-    if (from != settings_.number) peer_->receive(from, received<decltype(make(from))>(from));
+    if (from != settings_.number)
+      peer_->receive(from, inbox_.received<decltype(make(from))>(from, now_));
   if (const Accusation& found = peer_->accusation(); found.is_made())
-    give_up(found.peer(), found.text());
-}
-
-/// A peer that sends an impossible message counts as lost.
-void Session::give_up(PeerNumber peer, const std::string& what) const {
-  if (!settings_.is_replicated) throw ProtocolError(what);
-  throw PeerGone(peer, false, what);
+    inbox_.give_up(found.peer(), found.fault());
 }
 
 void Session::advance() {
   for (;;) try {
-      if (must_recover_) recover();
+      if (inbox_.must_recover()) recover();
       if (!is_over()) play_window();
       return;
     } catch (const PeerGone& gone) {
-      note_gone(gone.peer(), gone.what(), gone.has_finished());
+      inbox_.note_gone(gone.peer(), gone.what(), gone.has_finished());
     }
 }
 
@@ -172,8 +94,11 @@ void Session::play_stretch() {
   State next = now_;
   double next_end = 0.0;
   const auto enter_next = [&] {
-    next = after_stretch();
-    next_end = stretch_end(next);
+    Accusation accusation;
+    next =
+        agreement_.next(now_, peer_->verdicts(), peer_->share().roles(), peer_->now(), accusation);
+    if (accusation.is_made()) inbox_.give_up(accusation.peer(), accusation.fault());
+    next_end = agreement_.stretch_end(next);
     if (next.zones == now_.zones) return;
     division_ = next.division();
     peer_->divide(division_);
@@ -197,92 +122,51 @@ void Session::play_stretch() {
   if (settings_.goals) face_off(next);
   // A puck that found no place is due again, which rounding can put a little before the end of the
   // window.
-  if (const double end = stretch_end(next); end != next_end) peer_->end_at(end);
+  if (const double end = agreement_.stretch_end(next); end != next_end) peer_->end_at(end);
   if (settings_.is_replicated) {
     PartChange change = peer_->change(false);
     for (const PeerNumber leaver : now_.members)
-      if (!next.has(leaver) && replica_of(leaver, now_) == settings_.number) {
-        const std::vector<Key> log = replicas_[leaver].log();
+      if (!next.has(leaver) && replicas_.keeps(leaver, now_)) {
+        const std::vector<Key> log = replicas_.log(leaver);
         change.log.insert(change.log.end(), log.begin(), log.end());
       }
-    replica(next, std::move(change));
+    replicate(next, std::move(change));
   } else {
     log_.insert(log_.end(), peer_->log().begin(), peer_->log().end());
   }
   assert(next.step == now_.step + 1 && next.time > now_.time);
   has_left_ = !next.has(settings_.number) || (wishes_to_leave_ && next.members.size() == 1);
   adopt(std::move(next));
-  is_newcomer_ = false;
-}
-
-/// New members get a zone, those that want to leave hand theirs over, and those without a zone in
-/// this stretch are dropped.
-State Session::after_stretch() const {
-  State next = now_;
-  ++next.step;
-  next.time = peer_->now();
-  next.window += next.time == settings_.end_of(now_.window + 1);
-  count_goals(next);
-  next.members = now_.next_voters();
-  give_zones(next);
-  for (const PeerNumber peer : now_.members) {
-    const std::vector<PeerNumber> zoned = next.cuts.peers();
-    if (next.has(peer) && peer_->verdicts().of(peer).leaves && State::is_in(zoned, peer) &&
-        zoned.size() > 1)
-      next.cuts = next.cuts.without(peer), ++next.zones;
-  }
-  if (settings_.is_replicated) admit(next);
-  if (settings_.balance_windows > 0) balance(next);
-  return next;
-}
-
-/// Balances by the loads that all have sent since zones changed last. Differences within three
-/// standard deviations of a Poisson number move nothing.
-void Session::balance(State& next) const {
-  constexpr double tolerance = 1.1, deviations = 3.0;
-  assert(next.events.size() <= now_.slots && next.members.size() > 0);
-  next.events.resize(now_.slots, 0.0);
-  for (const PeerNumber peer : now_.members)
-    next.events[peer] += static_cast<double>(peer_->verdicts().of(peer).events);
-  if (++next.counted_windows < settings_.balance_windows && next.zones == now_.zones) return;
-  const double all = std::accumulate(next.events.begin(), next.events.end(), 0.0),
-               mean = all / static_cast<double>(next.members.size());
-  if (next.zones == now_.zones && mean > 0.0) {
-    auto shifted = next.cuts.balanced(next.events, tolerance + deviations / std::sqrt(mean));
-    if (shifted) next.cuts = std::move(*shifted), ++next.zones;
-  }
-  next.counted_windows = 0;
-  next.events.clear();
+  inbox_.enter();
 }
 
 /// Updates the replicas of the own part, here and at another peer, and those of others here, to the
 /// step that leads to `next`.
-void Session::replica(const State& next, PartChange change) {
+void Session::replicate(const State& next, PartChange change) {
   change.step = next.step;
-  [[maybe_unused]] const bool is_next = replicas_[settings_.number].add(change);
+  [[maybe_unused]] const bool is_next = replicas_.add(settings_.number, change);
   assert(is_next);
-  const auto to = next.has(settings_.number) ? replica_of(settings_.number, next) : std::nullopt;
+  const auto to =
+      next.has(settings_.number) ? Replicas::keeper_of(settings_.number, next) : std::nullopt;
   if (to) {
     if (!change.is_whole &&
-        (to != replica_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
+        (to != Replicas::keeper_of(settings_.number, now_) || now_.is_fresh(settings_.number))) {
       change = peer_->change(true);
       change.step = next.step;
-      change.log = replicas_[settings_.number].log();
+      change.log = replicas_.log(settings_.number);
     }
     std::vector<std::uint8_t> bytes = written(std::move(change));
     counters_.replica_bytes += bytes.size();
     mail_.send(*to, std::move(bytes));
   }
   for (const PeerNumber from : next.members) {
-    if (from == settings_.number || !now_.has(from) || replica_of(from, next) != settings_.number)
-      continue;
-    auto kept = checked<PartChange>(from, next.time);
+    if (from == settings_.number || !now_.has(from) || !replicas_.keeps(from, next)) continue;
+    auto kept = inbox_.checked<PartChange>(from, now_, next.time);
     if (const auto body = first_elsewhere(kept.bodies, next.time, division_, {{from}}))
-      give_up(from, "peer " + std::to_string(from) + " sends body " + std::to_string(*body) +
-                        " as its own, which is in another's zone");
-    if (kept.step != next.step || !replicas_[from].add(std::move(kept)))
-      give_up(from, "peer " + std::to_string(from) + " sent what is not its part at step " +
-                        std::to_string(next.step));
+      inbox_.give_up(
+          from, "sends body " + std::to_string(*body) + " as its own, which is in another's zone");
+    if (kept.step != next.step || !replicas_.add(from, std::move(kept)))
+      inbox_.give_up(from, "sent what is not its part at step " + std::to_string(next.step));
   }
 }
 
@@ -292,7 +176,7 @@ void Session::adopt(State next) {
       mail_.part(peer, false);
       peer_->set_present(peer, false);
     }
-  make_room(next.slots);
+  replicas_.make_room(next.slots), inbox_.make_room(next.slots);
   if (settings_.is_replicated && next.has(settings_.number)) greet(next);
   before_ = std::exchange(now_, std::move(next));
   if constexpr (checks_whole_structures) now_.check();
@@ -312,29 +196,30 @@ SessionCounters Session::counters() const {
 
 std::vector<Handover> Session::end() {
   wishes_to_leave_ = false;
+  std::vector<Handover> all;
   for (;;) try {
-      if (must_recover_) recover();
+      if (inbox_.must_recover()) recover();
       while (!is_over()) play_window();
       if (has_left_) return {};
       Handover own = own_bodies(*peer_);
       own.window = static_cast<std::uint32_t>(now_.window);
-      own.keys = settings_.is_replicated ? replicas_[settings_.number].log() : log_;
+      own.keys = settings_.is_replicated ? replicas_.log(settings_.number) : log_;
       std::vector<Handover> parts(now_.slots);
       for (const PeerNumber to : now_.members)
         if (to != settings_.number) mail_.send(to, written(own));
       for (const PeerNumber from : now_.members)
-        if (from != settings_.number) parts[from] = final_handover(from);
+        if (from != settings_.number) parts[from] = inbox_.final_handover(from, now_);
       parts[settings_.number] = std::move(own);
-      parts_ = std::move(parts);
+      all = std::move(parts);
       // No peer leaves before all have received all.
       for (const PeerNumber to : now_.members)
         if (to != settings_.number) mail_.send(to, written(Handover{}));
       for (const PeerNumber from : now_.members)
-        if (from != settings_.number) received<Handover>(from);
-      return parts_;
+        if (from != settings_.number) inbox_.received<Handover>(from, now_);
+      return all;
     } catch (const PeerGone& gone) {
-      if (!parts_.empty() && gone.has_finished()) return parts_;
-      note_gone(gone.peer(), gone.what(), gone.has_finished());
+      if (!all.empty() && gone.has_finished()) return all;
+      inbox_.note_gone(gone.peer(), gone.what(), gone.has_finished());
     }
 }
 

@@ -1,4 +1,4 @@
-// Between stretches of a window: counts goals, and puts pucks back. docs/peer-to-peer.md, "Goals".
+// Between stretches of a window: puts pucks back. docs/peer-to-peer.md, "Goals".
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -6,30 +6,6 @@
 #include "game/peer/session/session.h"
 
 namespace rink::peer {
-
-/// The end of the next stretch: a window is cut where a puck comes back. `state` is that at the
-/// start of the stretch, where due pucks come back.
-double Session::stretch_end(const State& state) const {
-  return std::min(settings_.end_of(state.window + 1), state.scoring.next_after(state.time));
-}
-
-/// Counts the goals in the final verdicts of all.
-void Session::count_goals(State& next) const {
-  if (!settings_.goals) return;
-  std::vector<Goal> goals;
-  for (const PeerNumber peer : now_.members) {
-    for (const Goal& goal : peer_->verdicts().of(peer).goals) {
-      const auto is_of_it = [&](const auto& other) { return other.puck == goal.puck; };
-      const bool can_be =
-          whole_.has_puck(goal.puck) && goal.time >= now_.time - 1e-9 &&
-          goal.time <= next.time + 1e-9 && std::none_of(goals.begin(), goals.end(), is_of_it) &&
-          std::none_of(now_.scoring.face_offs.begin(), now_.scoring.face_offs.end(), is_of_it);
-      if (!can_be) give_up(peer, "peer " + std::to_string(peer) + " sent a goal that cannot be");
-      goals.push_back(goal);
-    }
-  }
-  next.scoring.count(std::move(goals), *settings_.goals);
-}
 
 /// Puts back all pucks that are due at the end of the committed stretch.
 void Session::face_off(State& next) {
@@ -74,12 +50,11 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
   std::uint64_t taken = word.taken;
   for (const PeerNumber from : now_.members) {
     if (from == settings_.number) continue;
-    const auto word_received = checked<FaceOffWord>(from, peer_->now());
+    const auto word_received = inbox_.checked<FaceOffWord>(from, now_, peer_->now());
     if (word_received.puck != word.puck ||
         (!word_received.body.empty() && word_received.body.front().number != word.puck))
-      give_up(from, "peer " + std::to_string(from) + " sends puck " +
-                        std::to_string(word_received.puck) + " where puck " +
-                        std::to_string(word.puck) + " is due");
+      inbox_.give_up(from, "sends puck " + std::to_string(word_received.puck) + " where puck " +
+                               std::to_string(word.puck) + " is due");
     taken |= word_received.taken;
     if (word.body.empty()) word.body = word_received.body;
   }

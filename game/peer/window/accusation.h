@@ -14,18 +14,22 @@ class Accusation {
   /// Always false, so that a check can end with it.
   bool report(PeerNumber peer, const std::string& fault) {
     assert(!fault.empty());
-    if (text_.empty()) text_ = "peer " + std::to_string(peer) + " " + fault, peer_ = peer;
+    if (fault_.empty()) fault_ = fault, peer_ = peer;
     return false;
   }
-  bool is_made() const { return !text_.empty(); }
-  const std::string& text() const { return text_; }
+  bool is_made() const { return !fault_.empty(); }
+  const std::string& fault() const { return fault_; }
+  /// "peer 3" and its fault; empty if there is none.
+  std::string text() const {
+    return is_made() ? "peer " + std::to_string(peer_) + " " + fault_ : std::string();
+  }
   PeerNumber peer() const {
     assert(is_made());
     return peer_;
   }
 
  private:
-  std::string text_;
+  std::string fault_;
   PeerNumber peer_ = 0;
 };
 

@@ -1,0 +1,49 @@
+// The parts of other peers that one keeps, so that it can stand in for them, and its own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "game/peer/division.h"
+#include "game/peer/session/losses.h"
+#include "game/peer/session/part_replica.h"
+#include "game/peer/session/session_state.h"
+
+namespace rink::peer {
+
+class Replicas {
+ public:
+  explicit Replicas(PeerNumber number) : number_(number) {}
+
+  /// Who keeps the part of `peer`: the next one in the ring of those with zones.
+  static std::optional<PeerNumber> keeper_of(PeerNumber peer, const State& state);
+  bool keeps(PeerNumber peer, const State& state) const {
+    return keeper_of(peer, state) == number_;
+  }
+  /// All peers know the start.
+  void begin(const physics::World& whole, const State& start, const Division& division);
+  void make_room(PeerNumber slots);
+
+  /// Adds the next step's change, or a whole part: false, with nothing changed, if it is neither.
+  bool add(PeerNumber peer, PartChange change);
+  /// Goes back to one of the last two steps; parts that have neither are dropped.
+  void rewind(std::uint64_t step);
+  std::vector<Key> log(PeerNumber peer) const;
+
+  /// The lost peer, if there is one, whose part nobody keeps any more.
+  static std::optional<PeerNumber> first_unkept(const State& now, const Losses& losses);
+  /// `by`, and the lost peers that it stands in for.
+  static std::vector<PeerNumber> parts_of(PeerNumber by, const State& now, const Losses& losses);
+  /// All that `to`, which looks `halo` [m] far, may need of these parts: bodies in its zones or the
+  /// halo, and those that may act at a distance.
+  Handover share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to,
+                 double halo);
+
+ private:
+  PeerNumber number_;
+  std::vector<PartReplica> replicas_;  ///< by peer
+};
+
+}  // namespace rink::peer

@@ -1,0 +1,47 @@
+// What a session is to play, and what it needs to know of all bodies.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "game/peer/protocol.h"
+#include "game/peer/session/scoring.h"
+#include "game/peer/session/session_state.h"
+
+namespace rink::peer {
+
+/// Equal for all peers but for `number`; newcomers ignore `peer_count`, `players` and `halo`.
+struct SessionSettings {
+  PeerNumber number = 0, peer_count = 1;  ///< the number of first peers
+  double halo = 1.0;                      ///< where it begins [m]
+  bool is_replicated = true;              ///< whether each part is kept by another peer,
+                                          ///< too; otherwise a loss ends all
+  std::uint64_t window_count = 1;
+  std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
+  std::uint32_t balance_windows = 0;  ///< period [windows] in which zones shift toward equal events
+                                      ///< per peer; 0: they stay
+  std::vector<Key> keys{};            ///< that all know from the start, of all bats
+  std::optional<GoalRules> goals{};  ///< of a field that has some; windows must be shorter than the
+                                     ///< delay and the retry. The session is over with the window
+                                     ///< in which a side wins.
+  std::vector<Player> players{};     ///< of the first peers
+  std::uint32_t bat_count = 0;       ///< that can be played
+  std::function<std::vector<Seat>(const Player&)> seats_of{};
+  WindowHooks hooks{};  ///< for callers; `when_final` is the session's own
+};
+
+/// Data about all bodies that a session needs.
+struct Whole {
+  physics::WorldSpec spec;
+  std::uint32_t body_count = 0;
+  std::vector<double> puck_radii{};  ///< m, by body, 0 for others than pucks; empty without
+                                     ///< goals, when others' pucks do not matter
+  static Whole of(const physics::World& world);
+  bool has_puck(std::uint32_t body) const {
+    return body < puck_radii.size() && puck_radii[body] > 0.0;
+  }
+};
+
+}  // namespace rink::peer

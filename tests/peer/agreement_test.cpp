@@ -1,0 +1,154 @@
+// What peers of a session agree on, and what they know of lost ones: without windows or messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "game/peer/session/agreement.h"
+#include "game/peer/session/replicas.h"
+#include "tests/peer/shared_scenes.h"
+
+namespace rink::peer::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Three peers at the start of a session of 30 windows of 0.1 s, with two spare bats.
+struct Three {
+  SessionSettings settings{.number = 0, .peer_count = 3, .window_count = 30, .end_of = [](auto k) {
+                             return 0.1 * static_cast<double>(k);
+                           }};
+  Whole whole{.spec = physics::test::rink_of(4.0, 2.0), .body_count = 3, .puck_radii = {0.1, 0.1}};
+  State now{
+      .members = {0, 1, 2}, .cuts = Cuts::by_count(field, {}, 3), .slots = 3, .next_number = 3};
+  Halos halos{now.division(), 0, 0.25};
+  WindowVerdicts verdicts{halos, 6.0};
+  Roles roles{3};
+  Accusation accusation;
+  Three() { settings.bat_count = 2; }
+  State next() {
+    const Agreement agreement(settings, whole);
+    const State state = agreement.next(now, verdicts, roles, 0.1, accusation);
+    state.check();
+    return state;
+  }
+};
+
+TEST(Agreement, GivesTheZonesOfWhoLeavesToOthers) {
+  Three three;
+  three.verdicts.receive(1, {.accepts = true, .leaves = true});
+  const State next = three.next();
+  EXPECT_EQ(next.step, 1u);
+  EXPECT_EQ(next.window, 1u);
+  EXPECT_THAT(next.cuts.peers(), ElementsAre(0u, 2u));
+  EXPECT_THAT(next.members, ElementsAre(0u, 1u, 2u)) << "until the step after";
+  EXPECT_THAT(next.next_voters(), ElementsAre(0u, 2u));
+}
+
+TEST(Agreement, MakesACandidateThatAllReachAMember) {
+  Three three;
+  Verdict asked{.accepts = true};
+  asked.admission.asking = {{.token = 7, .bat_count = 2}, {.token = 8, .bat_count = 1}};
+  three.verdicts.receive(2, asked);
+  three.now = three.next();
+  ASSERT_EQ(three.now.candidates.size(), 1u) << "there are two bats, not three";
+  EXPECT_EQ(three.now.candidates.front().number, 3u);
+  EXPECT_EQ(three.now.candidates.front().sponsor, 2u);
+  three.now.step = three.now.window = 0, three.now.time = 0.0;
+  Verdict reached{.accepts = true};
+  reached.admission.reached = {3};
+  three.verdicts.receive(1, reached), three.verdicts.receive(2, reached);
+  EXPECT_THAT(three.next().members, ElementsAre(0u, 1u, 2u)) << "peer 0 does not reach it";
+  three.verdicts.decide(reached, true, 0.0);
+  const State next = three.next();
+  EXPECT_THAT(next.members, ElementsAre(0u, 1u, 2u, 3u));
+  EXPECT_THAT(next.fresh, ElementsAre(3u));
+  EXPECT_EQ(next.slots, 4u);
+}
+
+/// Else a peer could score with the pucks of others.
+TEST(Agreement, NamesWhoCountsAGoalOfAnothersPuck) {
+  Three three;
+  three.settings.goals = GoalRules{.goals_to_win = std::nullopt, .places = {}};
+  three.roles.own(0), three.roles.add_ghost(1, 2);
+  Verdict scored{.accepts = true};
+  scored.goals = {{0.05, 0, true}};
+  three.verdicts.decide(scored, true, 0.0);
+  scored.goals = {{0.06, 1, false}};
+  three.verdicts.receive(2, scored);
+  const State next = three.next();
+  EXPECT_FALSE(three.accusation.is_made()) << three.accusation.text();
+  EXPECT_EQ(next.scoring.left, 1u);
+  EXPECT_EQ(next.scoring.right, 1u);
+  for (const std::uint32_t puck : {0u, 1u}) {
+    Three other;
+    other.settings.goals = GoalRules{.goals_to_win = std::nullopt, .places = {}};
+    other.roles.own(0), other.roles.add_ghost(1, 2);
+    scored.goals = {{0.05, puck, true}};
+    other.verdicts.receive(1, scored);
+    other.next();
+    EXPECT_EQ(other.accusation.text(), "peer 1 sent a goal that cannot be") << puck;
+  }
+}
+
+TEST(Losses, LetAMajorityGoOnAndHalfOfItWithTheFirst) {
+  Three three;
+  Losses losses;
+  EXPECT_EQ(losses.majority(three.now), Losses::Majority::sure);
+  EXPECT_TRUE(losses.note(2, "peer 2 is gone", false));
+  EXPECT_FALSE(losses.note(2, "again", false));
+  EXPECT_EQ(losses.last(), "peer 2 is gone");
+  EXPECT_EQ(losses.majority(three.now), Losses::Majority::sure);
+  losses.note(0, "peer 0 is gone", false);
+  EXPECT_EQ(losses.majority(three.now), Losses::Majority::none);
+  EXPECT_THAT(losses.gone(), ElementsAre(0u, 2u));
+  losses.note(0, {}, true);
+  EXPECT_EQ(losses.majority(three.now), Losses::Majority::sure) << "of the two who did not finish";
+  losses.check();
+}
+
+TEST(Losses, RefuseStepsAndNumbersThatNobodyHas) {
+  const Three three;
+  EXPECT_THAT(Losses::fault_of({.step = 1, .gone = {2}}, three.now), IsEmpty());
+  EXPECT_THAT(Losses::fault_of({.step = 2, .gone = {2}}, three.now), HasSubstr("is at step 2"));
+  EXPECT_THAT(Losses::fault_of({.step = 0, .gone = {3}}, three.now), HasSubstr("never was"));
+}
+
+TEST(Replicas, AreKeptByTheNextInTheRing) {
+  Three three;
+  EXPECT_EQ(Replicas::keeper_of(1, three.now), 2u);
+  EXPECT_EQ(Replicas::keeper_of(2, three.now), 0u);
+  Losses losses;
+  losses.note(2, "it is gone", false);
+  EXPECT_EQ(Replicas::first_unkept(three.now, losses), std::nullopt);
+  EXPECT_THAT(Replicas::parts_of(0, three.now, losses), ElementsAre(0u, 2u));
+  EXPECT_THAT(Replicas::parts_of(1, three.now, losses), ElementsAre(1u));
+  losses.note(0, "and its keeper", false);
+  EXPECT_EQ(Replicas::first_unkept(three.now, losses), 2u);
+}
+
+TEST(Replicas, HandOutWhatIsNear) {
+  Three three;
+  physics::World world(three.whole.spec);
+  for (const double x : {0.5, 1.2, 3.5})
+    world.add(physics::PuckSpec{.position = {x, 1.0}, .radius = 0.05});
+  three.now.cuts =
+      Cuts::by_count(field, std::vector<Vector2>{{0.5, 1.0}, {1.2, 1.0}, {3.5, 1.0}}, 3);
+  Replicas replicas(0);
+  replicas.make_room(3);
+  const Division division = three.now.division();
+  replicas.begin(world, three.now, division);
+  const PeerNumber first = division.owner_of({0.5, 1.0});
+  const std::vector<PeerNumber> own{0};
+  const Handover wide = replicas.share(own, division, first, infinity);
+  EXPECT_EQ(wide.bodies.size(), 1u);
+  std::vector<PeerNumber> zones{1, 2};
+  EXPECT_EQ(first_elsewhere(wide.bodies, 0.0, division, own), std::nullopt);
+  EXPECT_EQ(first_elsewhere(wide.bodies, 0.0, division, zones), wide.bodies.front().number);
+  EXPECT_FALSE(replicas.add(
+      0, {.step = 3, .bodies = {}, .gone = {}, .rest_contacts = {}, .keys = {}, .log = {}}))
+      << "not the next step";
+}
+
+}  // namespace
+}  // namespace rink::peer::test

@@ -1,0 +1,79 @@
+// What a session believes of its mail, and how it learns of losses.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "game/peer/session/inbox.h"
+#include "tests/peer/shared_scenes.h"
+
+namespace rink::peer::test {
+namespace {
+
+using testing::ElementsAre;
+
+/// Hands out what was put into it.
+class Letters : public Mail {
+ public:
+  void send(PeerNumber, std::vector<std::uint8_t>) override {}
+  std::vector<std::uint8_t> receive(PeerNumber) override {
+    const std::vector<std::uint8_t> first = waiting.front();
+    waiting.pop_front();
+    return first;
+  }
+  void part(PeerNumber peer, bool) override { parted.push_back(peer); }
+  std::deque<std::vector<std::uint8_t>> waiting;
+  std::vector<PeerNumber> parted;
+};
+
+struct Receiver {
+  explicit Receiver(bool is_replicated) {
+    settings.number = 0, settings.peer_count = 3, settings.is_replicated = is_replicated;
+    world.add(physics::PuckSpec{.position = {1.0, 1.0}});
+    now.members = {0, 1, 2}, now.slots = now.next_number = 3;
+    inbox.make_room(3);
+  }
+  physics::World world{physics::test::rink_of(4.0, 2.0)};
+  SessionSettings settings;
+  State now{.cuts = Cuts::by_count(field, {}, 3)};
+  Letters mail;
+  Inbox inbox{settings, Validator(world), mail, false};
+};
+
+TEST(Inbox, LearnsOfALossOnce) {
+  Receiver receiver(true);
+  const std::vector<std::uint8_t> loss = written(Loss{.step = 0, .gone = {2}});
+  receiver.mail.waiting = {loss, loss, written(Verdict{.window = 7})};
+  EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), PeerGone);
+  EXPECT_TRUE(receiver.inbox.must_recover());
+  EXPECT_THAT(receiver.inbox.losses().gone(), ElementsAre(2u));
+  EXPECT_THAT(receiver.mail.parted, ElementsAre(2u));
+  EXPECT_EQ(receiver.inbox.received<Verdict>(1, receiver.now).window, 7u)
+      << "the second is no news";
+}
+
+TEST(Inbox, NamesWhoSendsWhatCannotBe) {
+  Receiver receiver(true);
+  Handover handover;
+  handover.keys = {{0.0, 0, {0.0, 0.0}, 1}};
+  receiver.mail.waiting = {written(handover)};
+  try {
+    receiver.inbox.checked<Handover>(1, receiver.now, 0.0);
+    ADD_FAILURE() << "body 0 is no bat";
+  } catch (const PeerGone& gone) {
+    EXPECT_EQ(gone.peer(), 1u);
+    EXPECT_THAT(gone.what(), testing::StartsWith("peer 1 hands over a key of bat 0"));
+  }
+  receiver.mail.waiting = {written(Loss{.step = 0, .gone = {0}})};
+  EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), Halt) << "it is given up itself";
+}
+
+TEST(Inbox, EndsASessionWithoutReplicas) {
+  Receiver receiver(false);
+  receiver.mail.waiting = {written(Loss{.step = 0, .gone = {2}})};
+  EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), ProtocolError);
+  EXPECT_THROW(receiver.inbox.note_gone(2, "peer 2 is gone"), Halt);
+}
+
+}  // namespace
+}  // namespace rink::peer::test
