@@ -290,7 +290,7 @@ bool Slabs::is_right() const {
 CellGrid::Range Slabs::range_of(const Courses::Late& late, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
   const Real left = shared_.end - late.from;
-  const bool is_curved = parts_.bodies[late.body].is(Body::curved);
+  const bool is_curved = parts_.bodies[late.body].is(Body::curved) || parts_.spec.puck_drag > 0.0;
   const Flight& flight = late.flight;
   const RealVector own_speed =
       is_curved ? RealVector(speed, speed) : RealVector(std::abs(flight.vx), std::abs(flight.vy));
