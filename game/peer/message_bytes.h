@@ -17,11 +17,15 @@ std::vector<std::uint8_t> bytes_from(Message& message, int checksum_bytes = 8) {
   return writer.finish(checksum_bytes);
 }
 
-/// False, with the message in no particular state, unless the bytes are one whole message.
+/// False, with the message in no particular state, unless the bytes are one whole message. Of a
+/// message that says another version than this program's only the version is read.
 template <class Message>
 bool read_whole(std::span<const std::uint8_t> bytes, Message& message, int checksum_bytes = 8) {
   physics::SnapshotReader reader(bytes);
-  return reader.is_intact(checksum_bytes) && exchange(reader, message) && reader.is_at_end();
+  if (!reader.is_intact(checksum_bytes) || !exchange(reader, message)) return false;
+  if constexpr (requires { message.is_of_this_version(); })
+    if (!message.is_of_this_version()) return true;
+  return reader.is_at_end();
 }
 
 }  // namespace rink::peer

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -14,6 +15,7 @@
 
 #include "game/peer/box.h"
 #include "game/physics/subdomain.h"
+#include "im/basics/varint.h"
 
 namespace rink::peer {
 
@@ -159,21 +161,23 @@ struct Verdict {
   Admission admission{};
 };
 
-/// A whole number of up to 64 bits, seven to a byte, lowest first, in as few bytes as it needs; the
-/// highest bit means that more follow.
+/// A whole number in as few bytes as it needs (im/basics/varint.h). A reader takes no longer form
+/// of it, for a message has one form of bytes.
 template <class Stream, class Number>
 bool exchange_short(Stream& stream, Number& number) {
-  std::uint64_t rest = number, received = 0;
-  for (int shift = 0; shift < 64; shift += 7, rest >>= 7) {
-    std::uint64_t byte = (rest & 0x7f) | (rest > 0x7f ? 0x80 : 0);
-    if (!stream.word(byte, 1) || (shift == 63 && byte > 1) || (shift > 0 && byte == 0))
-      return false;
-    received |= (byte & 0x7f) << shift;
-    if ((byte & 0x80) != 0) continue;
-    number = static_cast<Number>(received);
-    return number == received;
+  std::array<std::byte, varint_size_max> bytes{}, shortest{};
+  put_varint(bytes.data(), number);
+  std::size_t size = 0;
+  for (std::uint64_t byte = 0x80; byte >= 0x80 && size < bytes.size(); ++size) {
+    byte = static_cast<std::uint64_t>(bytes[size]);
+    if (!stream.word(byte, 1)) return false;
+    bytes[size] = static_cast<std::byte>(byte);
   }
-  return false;
+  std::uint64_t whole = 0;
+  if (get_varint(std::span(bytes).first(size), whole) == 0) return false;
+  number = static_cast<Number>(whole);
+  return number == whole && std::equal(shortest.data(), put_varint(shortest.data(), whole),
+                                       bytes.data(), bytes.data() + size);
 }
 
 /// The first byte of the messages of every window: it marks which of the mostly absent parts

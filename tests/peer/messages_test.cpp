@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <optional>
+
 #include "game/peer/assembly.h"
 #include "game/peer/session/session.h"
 #include "game/physics/snapshot_stream.h"
@@ -130,6 +133,25 @@ TEST(Messages, KeepNumbersOfAnyLength) {
     EXPECT_EQ(received.events, events);
     EXPECT_EQ(received.window, 0xffffffffu);
   }
+}
+
+TEST(Messages, TakeOnlyTheShortestFormOfANumber) {
+  const auto number = [](std::initializer_list<unsigned> bytes) -> std::optional<std::uint64_t> {
+    physics::SnapshotWriter writer;
+    for (std::uint64_t byte : bytes) writer.word(byte, 1);
+    const std::vector<std::uint8_t> with_checksum = writer.finish();
+    physics::SnapshotReader reader{std::span(with_checksum).first(bytes.size())};
+    std::uint64_t read = 0;
+    if (!exchange_short(reader, read) || !reader.is_at_end()) return std::nullopt;
+    return read;
+  };
+  EXPECT_EQ(number({0}), 0u);
+  EXPECT_EQ(number({0xac, 2}), 300u);
+  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 1}), ~std::uint64_t{0});
+  EXPECT_EQ(number({0xac, 0x82, 0}), std::nullopt);  // 300 in three bytes
+  EXPECT_EQ(number({0x80}), std::nullopt);
+  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 3}), std::nullopt);
+  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 1}), std::nullopt);
 }
 
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {

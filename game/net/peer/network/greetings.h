@@ -7,11 +7,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/net/relevant_kinds.h"
+#include "game/peer/message_bytes.h"
 #include "game/peer/session/session_state.h"
-#include "game/physics/snapshot_stream.h"
 
 namespace rink::game {
 
@@ -225,21 +226,16 @@ bool exchange(Stream& stream, Farewell& farewell) {
 /// With a checksum at the end.
 template <class Message>
 std::vector<std::uint8_t> bytes_of(Message message) {
-  physics::SnapshotWriter writer;
-  exchange(writer, message);
-  return writer.finish();
+  return peer::bytes_from(message);
 }
 
 /// Nothing unless the bytes are one whole message. Of a Hello of another version only the version
 /// is read.
 template <class Message>
 std::optional<Message> message_from(std::span<const std::uint8_t> bytes) {
-  physics::SnapshotReader reader(bytes);
-  Message message;
-  if (!reader.is_intact() || !exchange(reader, message)) return std::nullopt;
-  if constexpr (requires { message.is_of_this_version(); })
-    if (!message.is_of_this_version()) return message;
-  return reader.is_at_end() ? std::optional(std::move(message)) : std::nullopt;
+  std::optional<Message> message(std::in_place);
+  if (!peer::read_whole(bytes, *message)) message.reset();
+  return message;
 }
 
 }  // namespace rink::game
