@@ -1,10 +1,12 @@
-// Seven bits a byte, least significant first, as all varints of the wire.
+// One varint of the count above and the keys that are held below.
 #include "game/replication/input_codec.h"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
 #include "game/replication/attributes.h"
+#include "im/basics/varint.h"
 
 namespace rink::game {
 namespace {
@@ -25,16 +27,15 @@ void InputCodec::encode(rti::Bytes value, double, std::vector<std::byte>& coded)
 }
 
 std::optional<std::size_t> InputCodec::size(rti::Bytes coded) const {
-  for (std::size_t k = 0; k < size_max && k < coded.size(); ++k)
-    if ((coded[k] & std::byte{0x80}) == std::byte{0}) return k + 1;
-  return std::nullopt;
+  std::uint64_t packed = 0;
+  const std::size_t size = get_varint(coded.first(std::min(coded.size(), size_max)), packed);
+  return size > 0 ? std::optional(size) : std::nullopt;
 }
 
 bool InputCodec::decode(rti::Bytes coded, double, std::vector<std::byte>& value) const {
-  if (size(coded) != coded.size()) return false;
   std::uint64_t packed = 0;
-  for (std::size_t k = 0; k < coded.size(); ++k)
-    packed |= (static_cast<std::uint64_t>(coded[k]) & 0x7f) << 7 * k;
+  if (coded.size() > size_max || get_varint(coded, packed) != coded.size() || coded.empty())
+    return false;
   if (packed >> held_bits > std::numeric_limits<std::uint32_t>::max()) return false;
   Input input{.count = static_cast<std::uint32_t>(packed >> held_bits),
               .held = static_cast<std::uint8_t>(packed & 15u)};
