@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "game/physics/engine/field_parts.h"
+#include "game/physics/bodies/field_parts.h"
 #include "game/physics/flight/discs_near.h"
 #include "game/physics/flight/straight_flight.h"
 

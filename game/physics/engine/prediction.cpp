@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/physics/bodies/field_parts.h"
 #include "game/physics/bodies/tolerances.h"
-#include "game/physics/engine/field_parts.h"
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/flight/swept_boxes.h"
 

@@ -1,4 +1,4 @@
-// Passes over tiles, the check, and the way back.
+// Passes over tiles, what becomes of a window, and the way back.
 #include "game/physics/slabs/slabs.h"
 
 #include <algorithm>
@@ -9,12 +9,9 @@
 
 #include "game/physics/bodies/impact_history.h"
 #include "game/physics/bodies/jams.h"
-#include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/rest_contacts.h"
-#include "game/physics/flight/dragged_flight.h"
-#include "game/physics/flight/impact_time.h"
-#include "game/physics/flight/straight_flight.h"
 #include "game/physics/slabs/event_merge.h"
+#include "game/physics/slabs/window_check.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -259,121 +256,11 @@ void Slabs::take_put_off() {
   slab_counters().put_off += put_off_.size();
 }
 
-const Courses::Replaced& Slabs::course_at(std::uint32_t at) const {
-  const auto workers = static_cast<std::uint32_t>(tiles_.size() + 1);
-  const std::uint32_t worker = at % workers;
-  Tile& tile = worker + 1 == workers ? last_pass_->tile() : *tiles_[worker];
-  return tile.courses().replaced()[at / workers];
-}
-
-Real Slabs::greatest_speed() const {
-  Real square = 0.0;
-  for (Tile* tile : all_tiles_) square = std::max(square, tile->courses().square_max());
-  return std::sqrt(square);
-}
-
 bool Slabs::is_right() const {
-  if (last_pass_->solver_failed() || parts_.clock.events_at_once >= at_once_max) return false;
-  Real speed = -1.0;
-  for (Tile* tile : all_tiles_) {
-    if (tile->at_once_max() >= at_once_max) return false;
-    for (const Courses::Late& late : tile->courses().late()) {
-      if (speed < 0.0) speed = greatest_speed();
-      if (meets_unseen(late, speed)) return false;
-    }
-  }
-  return true;
-}
-
-/// Where those are listed whom the course may meet by the end of the window, when all are listed
-/// right and none has been faster than `speed`.
-CellGrid::Range Slabs::range_of(const Courses::Late& late, Real speed) const {
-  const CellGrid& grid = parts_.places.grid();
-  const Real left = shared_.end - late.from;
-  const bool is_curved = parts_.bodies[late.body].is(Body::curved) || parts_.spec.puck_drag > 0.0;
-  const Flight& flight = late.flight;
-  const RealVector own_speed =
-      is_curved ? RealVector(speed, speed) : RealVector(std::abs(flight.vx), std::abs(flight.vy));
-  const RealVector start = is_curved ? motion_of({late.body, flight}).at(late.from).position
-                                     : RealVector(flight.x + flight.vx * (late.from - flight.time),
-                                                  flight.y + flight.vy * (late.from - flight.time));
-  const Real reach = 2.0 * parts_.places.reach() + Real(0.1 * grid.side());  // and cells' margins
-  const RealVector far = RealVector::Constant(reach + speed * left) + own_speed * left;
-  const auto low = (start - far).cast<double>().eval(), high = (start + far).cast<double>().eval();
-  return {grid.column(low.x()), grid.row(low.y()), grid.column(high.x()), grid.row(high.y())};
-}
-
-/// Whether its course meets one that it was not compared with, as that was over or had gone on to
-/// cells out of sight. Both take a later event, of which the cell tells where the other body is.
-bool Slabs::meets_unseen(const Courses::Late& late, Real speed) const {
-  const CellGrid& grid = parts_.places.grid();
-  const CellGrid::Range range = range_of(late, speed);
-  const Real end = std::min(end_of(late), shared_.end);
-  bool meets = false;
-  for (std::uint32_t row = range.row_low; row <= range.row_high; ++row)
-    for (std::uint32_t column = range.column_low; column <= range.column_high; ++column) {
-      if (!(shared_.played[std::size_t{row} * grid.columns() + column] > late.from)) continue;
-      grid.within({column, row, column, row},
-                  [&](std::uint32_t other) { meets = meets || meets_unseen(late, other, end); });
-    }
-  return meets;
-}
-
-bool Slabs::meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const {
-  if (other == late.body) return false;
-  if (meets_by(late, {other, parts_.bodies[other]}, end)) return true;
-  for (std::uint32_t at = latest_of(other); at != Courses::none;) {
-    const Courses::Replaced& r = course_at(at);
-    if (!(r.end > late.from)) return false;
-    if (meets_by(late, {other, r.flight}, std::min(r.end, end))) return true;
-    at = r.earlier;
-  }
-  return false;
-}
-
-/// Asked as prediction asks, so that a meeting that it knows comes at the same bits. Laws of motion
-/// are the same all through a window.
-bool Slabs::meets_by(const Courses::Late& late, const Course& other, Real end) const {
-  const Bodies& bodies = parts_.bodies;
-  std::optional<Real> time;
-  if (!bodies[late.body].is(Body::curved) && !bodies[other.body].is(Body::curved)) {
-    const Real drag = parts_.spec.puck_drag, reach = late.flight.radius + other.flight.radius;
-    time = drag == 0.0 ? disc_contact_time(late.flight, other.flight, end)
-                       : dragged_contact_time(sighting_of(late.flight, other.flight, drag), reach,
-                                              end, drag);
-  } else {
-    const Course own{late.body, late.flight};
-    const bool is_low = own.body < other.body;
-    const Motion low = motion_of(is_low ? own : other), high = motion_of(is_low ? other : own);
-    time = first_contact(RelativeMotion{low, high}, shape_of(bodies, late.body, other.body),
-                         std::max(low.time, high.time), end, offset_tolerance(parts_.spec));
-  }
-  return time && *time < end;
-}
-
-Motion Slabs::motion_of(const Course& course) const {
-  Motion motion = parts_.bodies.motion(course.body);
-  const Flight& flight = course.flight;
-  motion.time = flight.time;
-  motion.position = {flight.x, flight.y}, motion.velocity = {flight.vx, flight.vy};
-  return motion;
-}
-
-/// The last one that was replaced in this window, or `none`.
-std::uint32_t Slabs::latest_of(std::uint32_t body) const {
-  const Courses::Latest& latest = shared_.latest[body];
-  return latest.window == shared_.number ? latest.at : Courses::none;
-}
-
-/// When the course was replaced, or would be.
-Real Slabs::end_of(const Courses::Late& late) const {
-  for (std::uint32_t at = latest_of(late.body); at != Courses::none; at = course_at(at).earlier) {
-    const Courses::Replaced& r = course_at(at);
-    if (r.flight.time == late.flight.time && r.flight.vx == late.flight.vx &&
-        r.flight.vy == late.flight.vy)
-      return std::min(late.until, r.end);
-  }
-  return late.until;
+  const auto has_too_many = [](const Tile* tile) { return tile->at_once_max() >= at_once_max; };
+  return !last_pass_->solver_failed() && parts_.clock.events_at_once < at_once_max &&
+         std::ranges::none_of(all_tiles_, has_too_many) &&
+         WindowCheck(parts_, shared_, all_tiles_).is_right();
 }
 
 void Slabs::accept() {

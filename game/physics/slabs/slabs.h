@@ -68,8 +68,6 @@
 #include "game/physics/engine/engine.h"
 #include "game/physics/event.h"
 #include "game/physics/event_budget.h"
-#include "game/physics/flight/motion.h"
-#include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"
 #include "game/physics/slab_plan.h"
 #include "game/physics/slabs/books.h"
@@ -97,11 +95,6 @@ class Slabs {
     int across = 0, along = 0;  // tiles
   };
 
-  struct Course {
-    std::uint32_t body;
-    Flight flight;
-  };
-
   SlabCounters& slab_counters() { return parts_.record.counters().slabs; }
   bool may_divide() const;
   Real next_end(Real until) const;
@@ -122,15 +115,6 @@ class Slabs {
   void play_listed(const Pass& pass, Tile& tile, std::uint32_t number);
   void take_put_off();
   bool is_right() const;
-  CellGrid::Range range_of(const Courses::Late& late, Real speed) const;
-  bool meets_unseen(const Courses::Late& late, Real speed) const;
-  bool meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const;
-  bool meets_by(const Courses::Late& late, const Course& other, Real end) const;
-  Motion motion_of(const Course& course) const;
-  std::uint32_t latest_of(std::uint32_t body) const;
-  Real end_of(const Courses::Late& late) const;
-  const Courses::Replaced& course_at(std::uint32_t at) const;
-  Real greatest_speed() const;
   void accept();
   void list_awakened();
   void take_clock();

@@ -1,5 +1,5 @@
 // Where the parts of a field are.
-#include "game/physics/engine/field_parts.h"
+#include "game/physics/bodies/field_parts.h"
 
 #include <cassert>
 
