@@ -165,7 +165,7 @@ struct Verdict {
 /// of it, for a message has one form of bytes.
 template <class Stream, class Number>
 bool exchange_short(Stream& stream, Number& number) {
-  std::array<std::byte, varint_size_max> bytes{}, shortest{};
+  std::array<std::byte, varint_size_max> bytes{};
   put_varint(bytes.data(), number);
   std::size_t size = 0;
   for (std::uint64_t byte = 0x80; byte >= 0x80 && size < bytes.size(); ++size) {
@@ -176,8 +176,8 @@ bool exchange_short(Stream& stream, Number& number) {
   std::uint64_t whole = 0;
   if (get_varint(std::span(bytes).first(size), whole) == 0) return false;
   number = static_cast<Number>(whole);
-  return number == whole && std::equal(shortest.data(), put_varint(shortest.data(), whole),
-                                       bytes.data(), bytes.data() + size);
+  const bool has_64_bits = size < bytes.size() || bytes.back() <= std::byte{1};
+  return number == whole && size == varint_size(whole) && has_64_bits;
 }
 
 /// The first byte of the messages of every window: it marks which of the mostly absent parts

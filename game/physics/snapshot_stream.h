@@ -87,6 +87,8 @@ inline std::uint64_t checksum(std::span<const std::uint8_t> bytes, int byte_coun
 
 class SnapshotWriter : public SnapshotStream<SnapshotWriter> {
  public:
+  /// Most messages are short: their bytes are allocated once.
+  SnapshotWriter() { bytes_.reserve(64); }
   bool word(std::uint64_t& value, int byte_count) {
     const std::size_t begin = bytes_.size();
     bytes_.resize(begin + static_cast<std::size_t>(byte_count));
