@@ -53,15 +53,14 @@ ExitStatus show_status(const ServeOptions& options) try {
   return ExitStatus::no_server;
 }
 
-/// The game of the options, if there is room for it and the team.
-ServedGame played_by(ThreadTeam& team, const ServeOptions& options) {
+/// The game of the options, if there is room for it and enough bodies for the threads.
+ServedGame game_of(const ServeOptions& options) {
   ServedGame played = served_game(options);
   require_room(options, played.scene);
   const Bodies& bodies = played.scene.bodies;
   const auto objection = objection_to_threads(
-      team.count(), bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
+      options.threads, bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
   if (objection) throw std::runtime_error("--threads: " + *objection);
-  played.scene.world.slabs = physics::SlabPlan{.workers = &team};
   return played;
 }
 
@@ -70,8 +69,9 @@ ExitStatus serve(ServeOptions& options) {
   const rti::FederationFile file = follow_federation_file(options);
   const std::string& federation = file.federation;
   const rti::Fom fom = load_rink_fom(file.fom);
+  ServedGame played = game_of(options);
   ThreadTeam team(options.threads);
-  const ServedGame played = played_by(team, options);
+  played.scene.world.slabs = physics::SlabPlan{.workers = &team};
   rti::ensure_file_limit(options.clients + 64u);
   ServerProcess process(options, fom, played, federation);
   const std::uint16_t port = process.listen();

@@ -43,8 +43,8 @@ struct Options {
   bool has_integrator = false, has_dt = false;
 };
 
-/// The first ends the run between two strides, with the results so far. A stride may take very
-/// long: the second one ends it at once, and so does any other signal, of who does not come again.
+/// The first interrupt ends the run between two strides, with the results so far. A stride may take
+/// very long, so the second one ends the process at once.
 void hear_first_interrupt() {
   std::signal(SIGINT, [](int number) {
     game::is_interrupted = true;
@@ -183,17 +183,18 @@ int status_after(const game::Game& game, const Options& options,
   return over_budget;
 }
 
-void require_room_for(const game::ThreadTeam& team, const game::Scene& scene) {
+void require_room_for(std::uint32_t threads, const game::Scene& scene) {
   const game::Bodies& bodies = scene.bodies;
   const auto objection = game::objection_to_threads(
-      team.count(), bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
+      threads, bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
   if (objection) throw game::SceneError("--threads: " + *objection);
 }
 
 int simulate(const Options& options) {
-  game::ThreadTeam team(options.threads.value_or(1));
   game::Scene scene = scene_of(options);
-  require_room_for(team, scene);
+  const std::uint32_t threads = options.threads.value_or(1);
+  require_room_for(threads, scene);
+  game::ThreadTeam team(threads);
   scene.world.slabs = physics::SlabPlan{.workers = &team};
   Outputs outputs(options);
   std::optional<physics::EventBudget> budget;

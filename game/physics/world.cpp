@@ -26,6 +26,12 @@ BodyState state_at(const Spec& spec, BodyKind kind) {
   return state;
 }
 
+std::unique_ptr<Engine> engine_of(WorldState state) {
+  auto engine = std::make_unique<Engine>(state.spec);
+  engine->restore(std::move(state));
+  return engine;
+}
+
 }  // namespace
 
 BodyId World::add(const PuckSpec& spec) {
@@ -166,14 +172,15 @@ std::vector<std::uint8_t> World::save() const { return to_snapshot(engine_->stat
 std::optional<World> World::restore(std::span<const std::uint8_t> bytes) {
   std::optional<WorldState> state = from_snapshot(bytes);
   if (!state) return std::nullopt;
-  auto engine = std::make_unique<Engine>(state->spec);
-  engine->restore(std::move(*state));
-  return World(std::move(engine));
+  return World(engine_of(std::move(*state)));
 }
+/// Of the plan for slabs all but the workers, who may be at work for this one.
 std::unique_ptr<Simulator> World::copy() const {
-  std::optional<World> world = restore(save());
-  assert(world);
-  return std::make_unique<World>(std::move(*world));
+  std::optional<WorldState> state = from_snapshot(save());
+  assert(state);
+  state->spec.slabs = spec().slabs;
+  if (state->spec.slabs) state->spec.slabs->workers = nullptr;
+  return std::unique_ptr<World>(new World(engine_of(std::move(*state))));
 }
 
 const WorldSpec& World::spec() const { return engine_->spec(); }

@@ -3,16 +3,25 @@
 
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
+#include <system_error>
 
 namespace rink::game {
 
 ThreadTeam::ThreadTeam(std::uint32_t count) {
   assert(count > 0);
-  for (std::uint32_t worker = 1; worker < count; ++worker)
-    threads_.emplace_back([this, worker] { work(worker); });
+  try {
+    for (std::uint32_t worker = 1; worker < count; ++worker)
+      threads_.emplace_back([this, worker] { work(worker); });
+  } catch (const std::system_error& error) {
+    end();
+    throw std::runtime_error(std::to_string(count) + " threads cannot be started: " + error.what());
+  }
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadTeam::~ThreadTeam() { end(); }
+
+void ThreadTeam::end() {
   {
     const std::lock_guard lock(mutex_);
     assert(busy_count_ == 0);

@@ -21,6 +21,7 @@ class ThreadTeam final : public physics::Workers {
   /// More than machines have cores for; each thread costs a stack.
   static constexpr std::uint32_t count_max = 256;
 
+  /// Throws a runtime_error where the system starts no more threads.
   explicit ThreadTeam(std::uint32_t count);
   ~ThreadTeam() override;
   ThreadTeam(const ThreadTeam&) = delete;
@@ -31,6 +32,7 @@ class ThreadTeam final : public physics::Workers {
   void run(void (*task)(void* context, std::uint32_t worker), void* context) override;
 
  private:
+  void end();
   void work(std::uint32_t worker);
 
   std::mutex mutex_;

@@ -55,10 +55,10 @@ void require_always(const ServeOptions& options) {
 void require_beginning(const ServeOptions& options) {
   if (options.from_state.empty()) return;
   if (!options.hosted.empty() || options.pace != "realtime" || options.is_time_managed ||
-      !options.record.empty())
+      !options.record.empty() || options.threads > 1)
     throw std::runtime_error(
-        "--from-state: a hosted match, --pace synchronous, --time-management and --record begin "
-        "with the scene and can't be given with it");
+        "--from-state: a hosted match, --pace synchronous, --time-management, --record and "
+        "--threads begin with the scene and can't be given with it");
 }
 
 }  // namespace

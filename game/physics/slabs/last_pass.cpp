@@ -24,10 +24,15 @@ void LastPass::begin_window() {
 
 void LastPass::play() {
   NextEvents& events = parts_.events;
+  EventOrder latest{-1.0, 0, 0};
   for (std::uint32_t body = events.first(shared_.end); body != NextEvents::none && !solver_failed_;
        body = events.first(shared_.end)) {
+    const EventOrder order = events.order_of(body);
+    // Brought about by one of its own instant: no order of times and ids tells when it came.
+    if (precedes(order, latest)) return void(solver_failed_ = true);
+    latest = order;
     ++played_;
-    if (!tile_.play_first_of_all(body)) process(body, events.order_of(body));
+    if (!tile_.play_first_of_all(body)) process(body, order);
   }
 }
 
@@ -69,10 +74,11 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   for (const std::uint32_t other : changed_) tile_.note_late(other, order.time);
 }
 
-/// Who accelerates may be faster when the window ends.
+/// Who accelerates, since its last event, may be faster when the window ends.
 void LastPass::note_speed(std::uint32_t body) {
   Flight flight = parts_.bodies[body];
-  const RealVector gain = parts_.bodies.law(body).acceleration * (shared_.end - shared_.begin);
+  const RealVector gain =
+      parts_.bodies.law(body).acceleration * (shared_.end - std::min(flight.time, shared_.begin));
   flight.vx = std::abs(flight.vx) + std::abs(gain.x());
   flight.vy = std::abs(flight.vy) + std::abs(gain.y());
   tile_.courses().note_speed(flight);

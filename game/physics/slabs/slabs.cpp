@@ -35,12 +35,19 @@ Slabs::Slabs(Engine& engine, const SlabPlan& plan)
 
 std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
   budget_ = budget;
+  const std::optional<Goal> goal = play(until);
+  budget_ = nullptr;
+  return goal;
+}
+
+std::optional<Goal> Slabs::play(Real until) {
   if (may_divide() && parts_.events.windows() == nullptr) {
     parts_.events.keep_by(QueuePolicy::windows);
     engine_.rebuild_from_state();
   }
-  while (parts_.clock.now < until && may_divide()) {
-    engine_.predict_pending();
+  while (parts_.clock.now < until) {
+    engine_.predict_pending();  // first: cells made anew may make bodies wide
+    if (!may_divide()) break;
     const Real end = next_end(until);
     if (!is_worth_dividing(end)) break;
     // There are hardly more events in a window than bodies that wait for one.
@@ -48,7 +55,7 @@ std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
     if (in_order_ == 0 && is_free && play_window(end)) continue;
     if (in_order_ > 0) --in_order_;
     if (auto goal = play_in_order(end)) return goal;
-    if (budget != nullptr && budget->is_exceeded()) return std::nullopt;
+    if (budget_ != nullptr && budget_->is_exceeded()) return std::nullopt;
   }
   return play_in_order(until);
 }
@@ -191,8 +198,8 @@ void Slabs::play_tiles() {
   play_pass({0, 0, true}, due_);
   for (const Pass& pass : {Pass{half, half, false}, Pass{half, 0, false}, Pass{0, half, false}}) {
     if (put_off_.empty()) return;
-    changed_.swap(put_off_);
-    play_pass(pass, changed_);
+    listed_.swap(put_off_);
+    play_pass(pass, listed_);
   }
 }
 
@@ -276,11 +283,11 @@ void Slabs::accept() {
 
 /// In order of their ids, whoever awakened them: the queue chooses the next window by its list.
 void Slabs::list_awakened() {
-  changed_.clear();
+  listed_.clear();
   for (Tile* tile : all_tiles_)
-    changed_.insert(changed_.end(), tile->awakened().begin(), tile->awakened().end());
-  std::sort(changed_.begin(), changed_.end());
-  for (const std::uint32_t body : changed_) parts_.events.windows()->list(body);
+    listed_.insert(listed_.end(), tile->awakened().begin(), tile->awakened().end());
+  std::sort(listed_.begin(), listed_.end());
+  for (const std::uint32_t body : listed_) parts_.events.windows()->list(body);
 }
 
 /// Of the latest event of all.
@@ -305,11 +312,11 @@ void Slabs::note_changes() {
       if (shared_.latest[body].window == shared_.number) parts_.bodies.changes().note(body);
     return;
   }
-  changed_.clear();
+  listed_.clear();
   for (Tile* tile : all_tiles_)
-    for (const Courses::Replaced& r : tile->courses().replaced()) changed_.push_back(r.body);
-  std::sort(changed_.begin(), changed_.end());
-  for (const std::uint32_t body : changed_) parts_.bodies.changes().note(body);
+    for (const Courses::Replaced& r : tile->courses().replaced()) listed_.push_back(r.body);
+  std::sort(listed_.begin(), listed_.end());
+  for (const std::uint32_t body : listed_) parts_.bodies.changes().note(body);
 }
 
 void Slabs::add_counters() {
@@ -372,18 +379,18 @@ void Slabs::undo() {
 /// Who had an event or was hit is listed where it was and looks around once more; what all others
 /// expect holds again.
 void Slabs::look_anew() {
-  changed_ = due_;
+  listed_ = due_;
   for (Tile* tile : all_tiles_)
-    for (const Courses::Replaced& r : tile->courses().replaced()) changed_.push_back(r.body);
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  for (const std::uint32_t body : changed_) {
+    for (const Courses::Replaced& r : tile->courses().replaced()) listed_.push_back(r.body);
+  std::sort(listed_.begin(), listed_.end());
+  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
+  for (const std::uint32_t body : listed_) {
     parts_.places.remove(body);
-    parts_.places.insert(body, motion_at(parts_.bodies, body, shared_.begin).position);
+    parts_.places.insert(body, position_at(parts_.bodies, body, shared_.begin));
   }
   WindowQueue& queue = *parts_.events.windows();
   queue.reopen(shared_.begin, shared_.end, {});  // or each event would be sorted in at once
-  for (const std::uint32_t body : changed_) last_pass_->tile().predict(body);
+  for (const std::uint32_t body : listed_) last_pass_->tile().predict(body);
   queue.reopen(shared_.begin, shared_.end, queue.listed());
 }
 

@@ -43,9 +43,10 @@
 // and how often the check fails, never the result.
 //
 // Undo. Where the check fails, or the last pass did what depends on more than the bodies concerned
-// (a joint impact, a hop, a rest contact, a goal, many events at one instant), what bodies were
-// before is put back, and the window is played in order. Where only the check failed and all fly
-// straight, those look anew who had an event or were hit; else all do.
+// (a joint impact, a hop, a rest contact, a goal, many events at one instant, an event that another
+// of its instant brought about), what bodies were before is put back, and the window is played in
+// order. Where only the check failed and all fly straight, those look anew who had an event or were
+// hit; else all do.
 //
 // Books. What an event takes from the energy waits in a list, and is added to the sums in the order
 // in which one loop would have, once the window is right.
@@ -99,6 +100,7 @@ class Slabs {
   bool may_divide() const;
   Real next_end(Real until) const;
   bool is_worth_dividing(Real end) const;
+  std::optional<Goal> play(Real until);
   std::optional<Goal> play_in_order(Real until);
   bool has_room(Real end, std::uint64_t events) const;
   std::uint64_t events_played() const;
@@ -136,11 +138,11 @@ class Slabs {
   std::vector<Tile*> all_tiles_;                   // that of the last pass, then the others
   std::vector<std::uint32_t> due_, put_off_;       // when the window begins, by a pass
   std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
-  std::vector<std::uint32_t> changed_;
-  int tile_side_ = 0;        // cells
-  std::uint32_t wider_ = 0;  // windows that block a cell more: still
-  double share_ = 1.0;       // of the window's length that the plan says
-  WorldMark before_;         // the window
+  std::vector<std::uint32_t> listed_;              // by each step for itself
+  int tile_side_ = 0;                              // cells
+  std::uint32_t wider_ = 0;                        // windows that block a cell more: still
+  double share_ = 1.0;                             // of the window's length that the plan says
+  WorldMark before_;                               // the window
   std::size_t events_before_ = 0;
   std::uint32_t in_order_ = 0,
                 in_order_last_ = 0;  // windows to be played in order: still, at first

@@ -40,13 +40,17 @@ bool WindowCheck::is_right() const {
 CellGrid::Range WindowCheck::range_of(const Courses::Late& late, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
   const Real left = shared_.end - late.from;
-  const bool is_curved = parts_.bodies[late.body].is(Body::curved) || parts_.spec.puck_drag > 0.0;
+  const bool is_curved = parts_.bodies[late.body].is(Body::curved),
+             is_straight = !is_curved && parts_.spec.puck_drag == 0.0;
   const Flight& flight = late.flight;
-  const RealVector own_speed =
-      is_curved ? RealVector(speed, speed) : RealVector(std::abs(flight.vx), std::abs(flight.vy));
-  const RealVector start = is_curved ? motion_of({late.body, flight}).at(late.from).position
-                                     : RealVector(flight.x + flight.vx * (late.from - flight.time),
-                                                  flight.y + flight.vy * (late.from - flight.time));
+  RealVector own_speed(std::abs(flight.vx), std::abs(flight.vy));  // which drag only lessens
+  if (is_curved)
+    own_speed +=
+        (parts_.bodies.law(late.body).acceleration * (shared_.end - flight.time)).cwiseAbs();
+  const RealVector start = is_straight
+                               ? RealVector(flight.x + flight.vx * (late.from - flight.time),
+                                            flight.y + flight.vy * (late.from - flight.time))
+                               : motion_of({late.body, flight}).at(late.from).position;
   const Real reach = 2.0 * parts_.places.reach() + Real(0.1 * grid.side());  // and cells' margins
   const RealVector far = RealVector::Constant(reach + speed * left) + own_speed * left;
   const auto low = (start - far).cast<double>().eval(), high = (start + far).cast<double>().eval();
