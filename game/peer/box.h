@@ -20,7 +20,7 @@ struct Box {
     return low_x <= other.high_x && other.low_x <= high_x && low_y <= other.high_y &&
            other.low_y <= high_y;
   }
-  bool rest_contacts(const Box& other) const {
+  bool holds(const Box& other) const {
     return low_x <= other.low_x && other.high_x <= high_x && low_y <= other.low_y &&
            other.high_y <= high_y;
   }

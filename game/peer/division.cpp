@@ -36,8 +36,7 @@ std::optional<std::string> Division::objection(const physics::Field& field,
     const std::string name = "zone " + std::to_string(i) + " (" + text_of(box) + ")";
     if (!(box.low_x < box.high_x && box.low_y < box.high_y))
       return name + ": expected sides in order, with room between them";
-    if (!whole.rest_contacts(box))
-      return name + ": reaches beyond the field, which is " + text_of(whole);
+    if (!whole.holds(box)) return name + ": reaches beyond the field, which is " + text_of(whole);
     if (zones[i].peer >= peer_count)
       return name + ": belongs to peer " + std::to_string(zones[i].peer) + ", expected one below " +
              std::to_string(peer_count);
@@ -50,7 +49,7 @@ std::optional<std::string> Division::objection(const physics::Field& field,
       const Box cell{xs[i], ys[j], xs[i + 1], ys[j + 1]};
       std::vector<std::size_t> there;
       for (std::size_t k = 0; k < zones.size(); ++k)
-        if (zones[k].box.rest_contacts(cell)) there.push_back(k);
+        if (zones[k].box.holds(cell)) there.push_back(k);
       if (there.empty()) return "no zone covers " + text_of(cell);
       if (there.size() > 1)
         return "zones " + std::to_string(there[0]) + " and " + std::to_string(there[1]) +
@@ -124,7 +123,7 @@ bool Division::is_near(PeerNumber peer, const Box& box, double halo) const {
 bool Division::is_within(PeerNumber peer, const Box& box, double halo) const {
   assert(halo >= 0.0);
   for (const Box& zone : zones_of(peer))
-    if (zone.grown(halo).rest_contacts(box)) return true;
+    if (zone.grown(halo).holds(box)) return true;
   return false;
 }
 

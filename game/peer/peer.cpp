@@ -164,7 +164,9 @@ void Peer::replay() {
   share_.undo();
   std::vector<RestContact> rest_contacts = share_.subdomain().rest_contacts();
   for (PeerNumber from = 0; from < halos_.peer_count(); ++from) {
-    const Handover handover = handovers_.enter(from);
+    Handover handover = handovers_.enter(from);
+    // By number, as ghosts are listed: each comes to the end of the list.
+    std::ranges::sort(handover.bodies, {}, &Handover::Body::number);
     for (const auto& [body, state] : handover.bodies)
       if (share_.roles().of(body) == Role::away) share_.add_ghost(body, from);
     rest_contacts.insert(rest_contacts.end(), handover.rest_contacts.begin(),

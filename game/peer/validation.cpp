@@ -215,6 +215,9 @@ std::string Validator::fault_of(const PartChange& message, double now) const {
 std::string Validator::fault_of(const FaceOffWord& message, double now) const {
   if (!is_of_kind(message.puck, physics::BodyKind::puck))
     return named("sends puck", message.puck, "which is none");
+  for (const Handover::Body& body : message.body)
+    if (!physics::Subdomain::is_out_of_play(body.state))
+      return named("sends puck", body.number, "in play, where it is to come back");
   return message.body.size() > 1 ? named("sends puck", message.puck, "more than once")
                                  : first_fault(message.body, now);
 }

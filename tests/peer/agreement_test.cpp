@@ -4,6 +4,7 @@
 
 #include "game/peer/session/agreement.h"
 #include "game/peer/session/replicas.h"
+#include "game/physics/bodies/body_records.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
@@ -145,6 +146,12 @@ TEST(Replicas, HandOutWhatIsNear) {
   std::vector<PeerNumber> zones{1, 2};
   EXPECT_EQ(first_elsewhere(wide.bodies, 0.0, division, own), std::nullopt);
   EXPECT_EQ(first_elsewhere(wide.bodies, 0.0, division, zones), wide.bodies.front().number);
+  std::vector<Handover::Body> scored = wide.bodies;
+  scored.front().state.flight.vx = 100.0;
+  EXPECT_NE(first_elsewhere(scored, 1.0, division, own), std::nullopt);
+  scored.front().state.flags |= physics::Body::gone;
+  EXPECT_EQ(first_elsewhere(scored, 1.0, division, own), std::nullopt)
+      << "a puck in a goal keeps its velocity, but stays";
   EXPECT_FALSE(replicas.add(
       0, {.step = 3, .bodies = {}, .gone = {}, .rest_contacts = {}, .keys = {}, .log = {}}))
       << "not the next step";

@@ -74,8 +74,8 @@ TEST(Box, HoldsThePathThatItIsSweptBy) {
     const double begin = uniform(random, 0.0, 1.0), length = uniform(random, 0.0, 2.0);
     const Box box = swept(motion, begin, begin + length, {0.04, 0.04}).grown(1e-9);
     for (int i = 0; i <= 50; ++i)
-      EXPECT_TRUE(box.rest_contacts(
-          Box::around(motion.at(begin + length * i / 50.0).position, {0.04, 0.04})));
+      EXPECT_TRUE(
+          box.holds(Box::around(motion.at(begin + length * i / 50.0).position, {0.04, 0.04})));
   }
 }
 

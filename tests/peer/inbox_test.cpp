@@ -64,6 +64,8 @@ TEST(Inbox, NamesWhoSendsWhatCannotBe) {
     EXPECT_EQ(gone.peer(), 1u);
     EXPECT_THAT(gone.what(), testing::StartsWith("peer 1 hands over a key of bat 0"));
   }
+  receiver.mail.waiting = {written(Loss{.step = 0, .gone = {2, 1}})};
+  EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), PeerGone) << "not in order";
   receiver.mail.waiting = {written(Loss{.step = 0, .gone = {0}})};
   EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), Halt) << "it is given up itself";
 }

@@ -11,6 +11,7 @@
 
 #include "game/peer/session/session.h"
 #include "game/peer/validation.h"
+#include "game/physics/bodies/body_records.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
@@ -70,11 +71,12 @@ TEST(Validator, FindsNoFaultInWhatIsHonest) {
             "");
   EXPECT_EQ(honest.validator.fault_of(Verdict{.window = 1, .goals = {{0.1, honest.puck, true}}}),
             "");
-  EXPECT_EQ(honest.validator.fault_of(
-                FaceOffWord{
-                    .puck = honest.puck, .taken = 3, .body = {honest.handover.bodies[honest.puck]}},
-                now),
-            "");
+  Handover::Body scored = honest.handover.bodies[honest.puck];
+  const FaceOffWord in_play{.puck = honest.puck, .taken = 3, .body = {scored}};
+  EXPECT_THAT(honest.validator.fault_of(in_play, now), HasSubstr("in play"));
+  scored.state.flags |= physics::Body::out_of_play;
+  const FaceOffWord word{.puck = honest.puck, .taken = 3, .body = {scored}};
+  EXPECT_EQ(honest.validator.fault_of(word, now), "");
   const PartChange part{.step = 1,
                         .time = 0.2,
                         .is_whole = true,

@@ -23,8 +23,9 @@ Handover Inbox::final_handover(PeerNumber from, const State& now) {
 bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes, const State& now) {
   Loss loss;
   if (!settings_.is_replicated || !read(bytes, loss)) give_up(from, "sent what is no message");
-  for (const auto& fault : {validator_.fault_of(loss), Losses::fault_of(loss, now)})
-    if (!fault.empty()) give_up(from, fault);
+  std::string fault = validator_.fault_of(loss);
+  if (fault.empty()) fault = Losses::fault_of(loss, now);
+  if (!fault.empty()) give_up(from, fault);
   if (State::is_in(loss.gone, settings_.number))
     halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
   losses_.hear(from, loss);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "game/peer/message_bytes.h"
+#include "game/physics/subdomain.h"
 #include "im/basics/checked.h"
 
 namespace rink::peer {
@@ -20,7 +21,11 @@ std::optional<std::uint32_t> first_elsewhere(std::span<const Handover::Body> bod
   constexpr double rounding = 1e-6;  // m: far more than a place is rounded by
   assert(std::isfinite(time));
   for (const auto& [body, state] : bodies) {
-    const Box place = Box::around(state.motion().at(time).position, {0.0, 0.0});
+    // A puck in a goal keeps its velocity, but stays.
+    const physics::Vector2 centre = physics::Subdomain::is_out_of_play(state)
+                                        ? physics::Vector2(state.flight.x, state.flight.y)
+                                        : state.motion().at(time).position;
+    const Box place = Box::around(centre, {0.0, 0.0});
     if (std::ranges::none_of(
             owners, [&](PeerNumber owner) { return division.is_near(owner, place, rounding); }))
       return body;
@@ -52,9 +57,9 @@ void PartReplica::apply() {
   part.step = change.step, part.time = change.time;
   for (const std::uint32_t body : change.gone) part.bodies.erase(body);
   for (const auto& [body, state] : change.bodies) part.bodies[body] = state;
-  for (const FreeFlightState& free_flights : change.free_flights)
-    if (const auto kept = part.bodies.find(free_flights.number); kept != part.bodies.end())
-      free_flights.write_to(kept->second.flight);
+  for (const FreeFlightState& free_flight : change.free_flights)
+    if (const auto kept = part.bodies.find(free_flight.number); kept != part.bodies.end())
+      free_flight.write_to(kept->second.flight);
   part.rest_contacts = std::move(change.rest_contacts);
   part.keys = std::move(change.keys);
   part.log.insert(part.log.end(), change.log.begin(), change.log.end());

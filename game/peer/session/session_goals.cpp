@@ -55,6 +55,11 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
         (!word_received.body.empty() && word_received.body.front().number != word.puck))
       inbox_.give_up(from, "sends puck " + std::to_string(word_received.puck) + " where puck " +
                                std::to_string(word.puck) + " is due");
+    const Roles& roles = peer_->share().roles();
+    const bool may_have = !roles.owns(word.puck) &&
+                          (!roles.has_ghost(word.puck) || roles.has_ghost_of(from, word.puck));
+    if (!word_received.body.empty() && !may_have)
+      inbox_.give_up(from, "sends puck " + std::to_string(word.puck) + ", which it does not own");
     taken |= word_received.taken;
     if (word.body.empty()) word.body = word_received.body;
   }

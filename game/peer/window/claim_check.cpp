@@ -68,7 +68,9 @@ bool ClaimCheck::are_possible(const Window& window) {
 std::vector<ClaimCheck::Flights> ClaimCheck::sort_claims(const Window& window,
                                                          std::vector<PathFlight>& beyond) const {
   std::vector<Flights> claimed(share_.roles().ghosts().size());
-  for (const Claims& claims : claims_) {
+  for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
+    if (!halos_.is_present(peer)) continue;  // its last claims are of an older window
+    const Claims& claims = claims_[peer];
     std::size_t first = 0;
     for (const Claims::Body& body : claims.bodies) {
       const Flights flights = Flights(claims.flights).subspan(first, body.flight_count);

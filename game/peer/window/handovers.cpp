@@ -115,24 +115,26 @@ bool Handovers::may_hand_over(PeerNumber from, std::uint32_t body) const {
 }
 
 /// What is there of `from` in the next window is a ghost of its already, or comes with this.
-bool Handovers::brings(PeerNumber from, const Handover& handover, std::uint32_t body) const {
+bool Handovers::brings(PeerNumber from, std::span<const std::uint32_t> brought,
+                       std::uint32_t body) const {
   return body < share_.roles().body_count() &&
-         (share_.roles().has_ghost_of(from, body) ||
-          std::ranges::count(handover.bodies, body, &Handover::Body::number) > 0);
+         (share_.roles().has_ghost_of(from, body) || std::ranges::binary_search(brought, body));
 }
 
-void Handovers::drop_keys(PeerNumber from, Handover& handover) {
+void Handovers::drop_keys(PeerNumber from, std::span<const std::uint32_t> brought,
+                          Handover& handover) {
   std::erase_if(handover.keys, [&](const Key& key) {
-    if (brings(from, handover, key.bat)) return false;
+    if (brings(from, brought, key.bat)) return false;
     accusation_.report(
         from, "hands over a key of bat " + std::to_string(key.bat) + ", which it does not own");
     return true;
   });
 }
 
-void Handovers::drop_contacts(PeerNumber from, Handover& handover) {
+void Handovers::drop_contacts(PeerNumber from, std::span<const std::uint32_t> brought,
+                              Handover& handover) {
   std::erase_if(handover.rest_contacts, [&](const RestContact& rest) {
-    if (brings(from, handover, rest.low) || brings(from, handover, rest.high)) return false;
+    if (brings(from, brought, rest.low) || brings(from, brought, rest.high)) return false;
     accusation_.report(from, "hands over a rest contact of bodies " + std::to_string(rest.low) +
                                  " and " + std::to_string(rest.high) +
                                  ", neither of which it owns");
@@ -148,7 +150,12 @@ Handover Handovers::enter(PeerNumber from) {
     report(from, body.number);
     return true;
   });
-  drop_keys(from, handover), drop_contacts(from, handover);
+  if (!handover.keys.empty() || !handover.rest_contacts.empty()) {
+    std::vector<std::uint32_t> brought;
+    for (const Handover::Body& body : handover.bodies) brought.push_back(body.number);
+    std::ranges::sort(brought);
+    drop_keys(from, brought, handover), drop_contacts(from, brought, handover);
+  }
   for (const auto& [body, state] : handover.bodies)
     if (!share_.subdomain().is_there(body) || !are_same(share_.state(body), state))
       share_.put(body, state);

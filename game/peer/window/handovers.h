@@ -1,6 +1,8 @@
 // What peers hand over to each other between two windows, or before one is repeated.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "game/peer/messages.h"
@@ -40,9 +42,10 @@ class Handovers {
   void complete(Handover& handover, PeerNumber from, const ClaimCheck& check);
   bool may_hand_over(PeerNumber from, std::uint32_t body) const;
   void report(PeerNumber from, std::uint32_t body);
-  bool brings(PeerNumber from, const Handover& handover, std::uint32_t body) const;
-  void drop_keys(PeerNumber from, Handover& handover);
-  void drop_contacts(PeerNumber from, Handover& handover);
+  /// With the numbers of the bodies that come, sorted.
+  bool brings(PeerNumber from, std::span<const std::uint32_t> brought, std::uint32_t body) const;
+  void drop_keys(PeerNumber from, std::span<const std::uint32_t> brought, Handover& handover);
+  void drop_contacts(PeerNumber from, std::span<const std::uint32_t> brought, Handover& handover);
 
   Share& share_;
   const Halos& halos_;

@@ -29,9 +29,9 @@ Homes::Homes(Share& share, const Halos& halos)
 std::uint8_t Homes::home_of(const Vector2& place, std::uint8_t likely) const {
   assert(likely <= interiors_.size());
   const Box point = Box::around(place, {0.0, 0.0});
-  if (likely != 0 && interiors_[likely - 1u].rest_contacts(point)) return likely;
+  if (likely != 0 && interiors_[likely - 1u].holds(point)) return likely;
   for (std::size_t k = 0; k < interiors_.size(); ++k)
-    if (interiors_[k].rest_contacts(point)) return static_cast<std::uint8_t>(k + 1);
+    if (interiors_[k].holds(point)) return static_cast<std::uint8_t>(k + 1);
   return 0;
 }
 
@@ -94,8 +94,8 @@ bool Homes::stays(std::uint8_t home, const Vector2& place, const Vector2& veloci
   const Box& interior = interiors_[home - 1u];
   const Vector2 farthest =
       place + velocity * (watched_until_ - since);  // drag only makes it shorter
-  return interior.rest_contacts(Box::around(place, {0.0, 0.0})) &&
-         interior.rest_contacts(Box::around(farthest, {0.0, 0.0}));
+  return interior.holds(Box::around(place, {0.0, 0.0})) &&
+         interior.holds(Box::around(farthest, {0.0, 0.0}));
 }
 
 void Homes::choose_watched(const Window& window) {
@@ -134,7 +134,7 @@ void Homes::find_edge() {
           stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since)))
       watch(body, Watch::late), look_at(body);
     if (!is_straight ||
-        !interiors_[homes_[body] - 1u].rest_contacts({change.x, change.y, change.x, change.y}))
+        !interiors_[homes_[body] - 1u].holds({change.x, change.y, change.x, change.y}))
       note_edge(body);
   }
   std::sort(edge_.begin(), edge_.end());

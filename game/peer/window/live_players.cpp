@@ -41,13 +41,12 @@ bool LivePlayers::plays(PeerNumber peer, std::uint32_t bat) const {
 /// as a ghost, or the player's own.
 void LivePlayers::stamp(PeerNumber from, std::span<const Press> presses, double end,
                         TimedKeys& keys) {
-  const auto report = [&](const Press& press, const char* fault) {
-    accusation_.report(from, "presses a key of bat " + std::to_string(press.bat) + fault);
-  };
   for (const Press& press : presses) {
-    if (!plays(from, press.bat)) report(press, ", which it does not play");
-    else if (!share_.owns(press.bat)) report(press, " here, where it is not");
-    else
+    if (!plays(from, press.bat))
+      accusation_.report(
+          from, "presses a key of bat " + std::to_string(press.bat) + ", which it does not play");
+    // Its player went where an observation said, which may have been false: no proof of a lie.
+    else if (share_.owns(press.bat))
       keys.add(
           {std::clamp(press.time, end, end + ahead_max), press.bat, press.thrust, press.input});
   }

@@ -66,7 +66,7 @@ class PeerStation {
   const RunClock& clock_;
   Measurements& measurements_;
   double rate_hz_;
-  std::vector<game::FrameQueue> readers_;           ///< by peer
+  std::vector<game::FrameQueue> readers_;            ///< by peer
   std::vector<std::vector<std::uint8_t>> outboxes_;  ///< by peer
   Probe probe_;
   game::PeerNode node_;

@@ -87,8 +87,12 @@ std::vector<rti::ConnectionId> PeerAdmission::answer_early() {
   }
   for (const rti::ConnectionId connection : asking)
     answer(connection, *std::exchange(links_.find(connection)->asking, std::nullopt));
-  for (const rti::ConnectionId connection : early)
-    admit(connection, *std::exchange(links_.find(connection)->early, std::nullopt));
+  for (const rti::ConnectionId connection : early) {
+    PeerLink* const link = links_.find(connection);
+    if (!link || !link->early) continue;  // it asked as well, and was answered
+    const Greeting greeting = *std::exchange(link->early, std::nullopt);
+    if (link->role == LinkRole::stranger) admit(connection, greeting);
+  }
   return early;
 }
 

@@ -148,8 +148,8 @@ void PeerNetwork::on_close(rti::ConnectionId connection, rti::CloseReason reason
                            const std::string& detail) {
   PeerLink* const link = links_.find(connection);
   if (!link) return;
-  const std::string why =
-      std::string(rti::to_string(reason)) + (detail.empty() ? "" : ", " + detail);
+  std::string why(rti::to_string(reason));
+  if (!detail.empty() && detail != why) why += ", " + detail;
   if (link->role == LinkRole::peer && !link->is_done && !link->is_parted)
     losses_.lose(*link, ExitStatus::connection_lost,
                  name_of(*link) + (link->is_open ? " is gone: " : " cannot be reached: ") + why);
