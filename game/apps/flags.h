@@ -68,7 +68,7 @@ class Flag {
   Flag& excludes(const Flag& other);
   /// Sets its title in the help.
   Flag& group(const std::string& title);
-  /// Sets the placeholder of the value in the help, e.g. HOST:PORT.
+  /// Sets the name that the help gives to the value, e.g. HOST:PORT.
   Flag& value_name(const std::string& name);
   /// Allows several values in one argument, with `delimiter` between them.
   Flag& delimiter(char delimiter);

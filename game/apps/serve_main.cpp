@@ -57,9 +57,7 @@ ExitStatus show_status(const ServeOptions& options) try {
 ServedGame game_of(const ServeOptions& options) {
   ServedGame played = served_game(options);
   require_room(options, played.scene);
-  const Bodies& bodies = played.scene.bodies;
-  const auto objection = objection_to_threads(
-      options.threads, bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
+  const auto objection = objection_to_threads(options.threads, count_of(played.scene.bodies));
   if (objection) throw std::runtime_error("--threads: " + *objection);
   return played;
 }

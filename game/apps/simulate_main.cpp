@@ -184,9 +184,7 @@ int status_after(const game::Game& game, const Options& options,
 }
 
 void require_room_for(std::uint32_t threads, const game::Scene& scene) {
-  const game::Bodies& bodies = scene.bodies;
-  const auto objection = game::objection_to_threads(
-      threads, bodies.bats.size() + bodies.pucks.size() + bodies.posts.size());
+  const auto objection = game::objection_to_threads(threads, count_of(scene.bodies));
   if (objection) throw game::SceneError("--threads: " + *objection);
 }
 

@@ -84,9 +84,6 @@ class Placement {
     return count;
   }
   std::uint64_t placed_count() const { return count_of(scene_.bodies); }
-  static std::uint64_t count_of(const Bodies& bodies) {
-    return bodies.pucks.size() + bodies.bats.size() + bodies.posts.size();
-  }
 
   void check_placed() {
     const Bodies& placed = scene_.placed;

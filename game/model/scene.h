@@ -2,6 +2,7 @@
 // which a Game is made.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -56,6 +57,10 @@ struct Bodies {
   std::vector<Bat> bats;  ///< player k plays bat k
   std::vector<Post> posts;
 };
+
+inline std::size_t count_of(const Bodies& bodies) {
+  return bodies.pucks.size() + bodies.bats.size() + bodies.posts.size();
+}
 
 /// How the speeds of seeded pucks are distributed about their mean; directions are uniform.
 enum class SpeedDistribution : std::uint8_t {

@@ -17,7 +17,7 @@ namespace rink::physics::inline RINK_PRECISION {
 enum class OverrunReason : std::uint8_t {
   pressed,  ///< thrust presses it: it hops in a cluster, or meets a bat under thrust
   no_room,  ///< between two of its events it goes less than a millionth of its size
-  light,    ///< it is a hundredth as heavy as somebody whom it meets, or less, and so the faster
+  light,    ///< its mass is at most a hundredth of that of a body it meets, which makes it fast
   common,   ///< nothing that most others have not: the scene has so many events
   fast      ///< it goes far between its events, but so fast that they are many
 };
@@ -28,7 +28,7 @@ inline constexpr std::array overrun_reason_names{"pressed", "no_room", "light", 
 struct BusyBody {
   BodyId body;
   double share = 0.0;  ///< of the events looked at; those of two bodies are counted for both
-  std::optional<BodyId> partner{};  ///< whom most of them were with; nothing: a part of the field
+  std::optional<BodyId> partner{};  ///< the body in most of them; nothing: most were with the field
   double free_path = 0.0;           ///< at most what it goes between two of its events, on average:
                                     ///< at the speed of the fastest looked at [m]
   double mass_ratio = 0.0;          ///< of the heaviest that it met and that moves to itself; 0:

@@ -97,7 +97,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
     throw std::runtime_error(
         "--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene +
         "' has " + std::to_string(bodies.bats.size()) + " bats; allowed is at most as many");
-  const std::size_t body_count = bodies.bats.size() + bodies.pucks.size() + bodies.posts.size();
+  const std::size_t body_count = count_of(bodies);
   if (body_count > body_max)
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) +
                              " bodies; allowed is at most " + std::to_string(body_max));

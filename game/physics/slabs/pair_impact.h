@@ -1,4 +1,4 @@
-// An impact of two pucks that is nobody else's business, as a tile plays it.
+// An impact of two pucks that concerns no third body, as a tile plays it.
 #pragma once
 
 #include <cstdint>

@@ -60,23 +60,25 @@ bool Tile::play_first_of_all(std::uint32_t body) {
 void Tile::open(const CellRange& range) {
   range_ = range;
   blocked_.assign(std::size_t{range.columns()} * range.rows(), Blocked::for_nobody);
-  close(1, Blocked::for_all);
-  close(shared_.block_radius, Blocked::for_impacts);
+  close_edges(1, Blocked::for_all);
+  close_edges(shared_.block_radius, Blocked::for_impacts);
 }
 
-/// So many cells along the edges, but for those of the field.
-void Tile::close(int margin, Blocked whom) {
+/// Closes `width` cells along each edge that is not the field's.
+void Tile::close_edges(int width, Blocked blocked) {
   const CellRange& range = range_;
   const CellGrid& grid = places_.grid();
   const int columns = static_cast<int>(grid.columns()), rows = static_cast<int>(grid.rows());
   if (range.first_column > 0)
-    block({range.first_column, range.first_row, range.first_column + margin, range.end_row}, whom);
+    block({range.first_column, range.first_row, range.first_column + width, range.end_row},
+          blocked);
   if (range.end_column < columns)
-    block({range.end_column - margin, range.first_row, range.end_column, range.end_row}, whom);
+    block({range.end_column - width, range.first_row, range.end_column, range.end_row}, blocked);
   if (range.first_row > 0)
-    block({range.first_column, range.first_row, range.end_column, range.first_row + margin}, whom);
+    block({range.first_column, range.first_row, range.end_column, range.first_row + width},
+          blocked);
   if (range.end_row < rows)
-    block({range.first_column, range.end_row - margin, range.end_column, range.end_row}, whom);
+    block({range.first_column, range.end_row - width, range.end_column, range.end_row}, blocked);
 }
 
 /// Asks the processor for what the events will look at: all that is in the tile, or around `bodies`

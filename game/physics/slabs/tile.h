@@ -48,8 +48,8 @@ inline bool is_later(const Clock& a, const Clock& b) {
                                             : a.events_at_once > b.events_at_once;
 }
 
-/// A worker's tile: it plays one after the other. It knows free flight, and impacts of two pucks
-/// that are nobody else's business; all else it puts off.
+/// A worker's tile: it plays one after the other. It plays free flight, and impacts of two pucks
+/// that concern no third body; it puts off all else.
 class Tile {
  public:
   Tile(const Engine::Parts& engine, SharedWindow& shared, std::uint32_t number,
@@ -99,7 +99,7 @@ class Tile {
   };
 
   void open(const CellRange& range);
-  void close(int margin, Blocked whom);
+  void close_edges(int width, Blocked blocked);
   void fetch(std::span<const std::uint32_t> bodies);
   void fetch_all();
   void fetch(std::uint32_t body) const;
