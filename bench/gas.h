@@ -1,6 +1,7 @@
 // A gas of equal pucks, and what the benchmarks that play it share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -36,6 +37,11 @@ inline double collision_rate(double packing) {
   const double density = packing / (std::numbers::pi * radius * radius),
                crowding = (1.0 - 7.0 / 16.0 * packing) / std::pow(1.0 - packing, 2);
   return std::sqrt(2.0) * 2.0 * radius * density * crowding;
+}
+
+/// One iteration [s]: 2,000 impacts or so, but long enough that it may be divided into windows.
+inline double step_of(int count, double packing) {
+  return std::max(4000.0 / count, 1.0) / collision_rate(packing);
 }
 
 /// `count` pucks on a square lattice that fills a square field at `packing`.

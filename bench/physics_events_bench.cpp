@@ -23,11 +23,6 @@ using rink::physics::QueuePolicy;
 using rink::physics::World;
 using rink::physics::WorldSpec;
 
-/// One iteration [s]: 2,000 impacts or so, but long enough that it may be divided into windows.
-double step_of(int count, double packing) {
-  return std::max(4000.0 / count, 1.0) / collision_rate(packing);
-}
-
 /// All events in one order, by a calendar.
 WorldSpec plain_loop() {
   WorldSpec spec;

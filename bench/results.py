@@ -199,6 +199,8 @@ def provenance_lines(folder, *others):
         with open(other) as lines:
             heads = dict(line[2:].rstrip("\n").split(": ", 1) for line in lines if line.startswith("# ") and ": " in line)
         facts["accuracy and bench"] = f"{heads['compiler']}, {heads['flags']}"
+        if engines := [f"{engine} {heads[engine]}" for engine in ("chipmunk", "box2d", "box2d3") if engine in heads]:
+            facts["other engines"] = ", ".join(engines)
     return [line for name, fact in facts.items() for line in textwrap.wrap(f"{name}: {fact}", WIDTH, subsequent_indent="  ", break_long_words=False)]
 
 

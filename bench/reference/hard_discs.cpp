@@ -1,114 +1,146 @@
-// Prediction over the cells around, one bucket of events after the other.
+// Prediction over the cells around, and events one bucket after the other.
 #include "bench/reference/hard_discs.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <stdexcept>
 
 namespace rink::bench {
 
 HardDiscs::HardDiscs(double side, double radius, const std::vector<Disc>& discs)
     : side_(side), reach_(2.0 * radius) {
-  assert(!discs.empty() && side > reach_ && radius > 0.0);
+  assert(!discs.empty() && discs.size() < wall_y && radius > 0.0 && side > reach_);
   // Few crossings are worth many discs in sight where flights are long.
-  const double spacing = side / std::sqrt(static_cast<double>(discs.size()));
-  cell_side_ = std::max(1.2 * spacing - radius, 1.01 * reach_);
-  columns_ = std::clamp(static_cast<int>(side / cell_side_), 1, 65'000);
-  cell_side_ = side / columns_;
-  pitch_ = static_cast<std::size_t>(columns_) + 2;
-  cells_.resize(pitch_ * pitch_);
+  const double spacing = side / std::sqrt(static_cast<double>(discs.size())),
+               wanted = std::max(1.2 * spacing - radius, 1.01 * reach_);
+  columns_ = static_cast<std::uint32_t>(std::clamp(side / wanted, 1.0, 32'000.0));
+  const double cell_side = side / columns_, around = cell_side + reach_;
+  cell_size_ = around * around < 2.0 * std::sqrt(3.0) * radius * radius * narrow ? narrow : wide;
+  pitch_ = columns_ + std::size_t{2};
+  for (const std::size_t k : {0, 1}) {
+    steps_[k] = 2 * k - 1, across_[k] = pitch_;
+    steps_[2 + k] = steps_[k] * pitch_, across_[2 + k] = 1;
+  }
+  for (std::uint32_t k = 0; k <= columns_; ++k) edges_.push_back(k * cell_side);
+  edges_.front() = -never, edges_.back() = never;
+  cells_.resize(pitch_ * pitch_ * cell_size_);
   records_.reserve(discs.size());
   for (const Disc& d : discs) {
     assert(d.x >= radius && d.x <= side - radius && d.y >= radius && d.y <= side - radius);
     const auto index = [&](double at) {
-      return static_cast<std::uint16_t>(std::min(static_cast<int>(at / cell_side_), columns_ - 1));
+      return std::min(static_cast<std::uint32_t>(at / cell_side), columns_ - 1);
     };
-    records_.push_back({d.x, d.y, d.vx, d.vy, d.time, never, nobody, index(d.x), index(d.y), 0, 0});
+    records_.push_back({d.x, d.y, d.vx, d.vy, d.time, never, nobody, index(d.x) & 0x7fffu,
+                        index(d.y) & 0x7fffu, 0, 0, 0});
     enter(count() - 1);
   }
   dues_.resize(records_.size());
   buckets_.assign(1, nobody);
-  for (Index disc = 0; disc < count(); ++disc) predict(disc), settle(disc);
+  for (Index disc = 0; disc < count(); ++disc) predict(disc);
 }
 
 void HardDiscs::enter(Index disc) {
-  Cell& c = cell(records_[disc].column, records_[disc].row);
-  assert(c.count < room);
-  c.discs[c.count++] = disc;
+  Index* const cell = &cells_[cell_of(records_[disc]) * cell_size_];
+  if (cell[0] + 1 == cell_size_) throw std::length_error("HardDiscs: too many discs in a cell");
+  cell[++cell[0]] = disc;
 }
 
 void HardDiscs::leave(Index disc) {
-  Cell& c = cell(records_[disc].column, records_[disc].row);
-  *std::find(c.discs, c.discs + c.count, disc) = c.discs[c.count - 1];
-  --c.count;
+  Index* const cell = &cells_[cell_of(records_[disc]) * cell_size_];
+  *std::find(cell + 1, cell + cell[0], disc) = cell[cell[0]];
+  --cell[0];
 }
 
-/// Into the next cell, or never where the box ends.
-HardDiscs::Crossing HardDiscs::crossing(const Record& r) const {
-  const int across = r.vx > 0.0 ? 1 : -1, along = r.vy > 0.0 ? 1 : -1;
-  const auto wait = [&](double at, double speed, int index, int step) {
-    const int beyond = index + step;
-    if (speed == 0.0 || beyond < 0 || beyond >= columns_) return never;
-    return std::max(0.0, ((index + (step > 0)) * cell_side_ - at) / speed);
-  };
-  const double x = wait(r.x, r.vx, r.column, across), y = wait(r.y, r.vy, r.row, along);
-  return x <= y ? Crossing{r.time + x, across, 0} : Crossing{r.time + y, 0, along};
+/// The discs of three cells, as many as there are, without a branch on each one's number.
+HardDiscs::Index* HardDiscs::gather(std::size_t centre, std::size_t across, Index* end) const {
+  for (const std::size_t k : {centre - across, centre, centre + across}) {
+    const Index* const cell = &cells_[k * cell_size_];
+    std::memcpy(end, cell + 1, (narrow - 1) * sizeof(Index));
+    if (cell[0] >= narrow) std::copy(cell + narrow, cell + cell[0] + 1, end + narrow - 1);
+    end += cell[0];
+  }
+  return end;
 }
 
-void HardDiscs::meet_walls(Record& r) const {
-  const double radius = 0.5 * reach_;
-  const auto meet = [&](double at, double speed, Index wall) {
-    if (speed == 0.0) return;
-    const double gap = speed > 0.0 ? side_ - radius - at : at - radius;
-    const double time = r.time + std::max(0.0, gap) / std::abs(speed);
-    if (time < r.impact) r.impact = time, r.partner = wall;
-  };
-  meet(r.x, r.vx, wall_x);
-  meet(r.y, r.vy, wall_y);
+HardDiscs::Index* HardDiscs::gather_around(const Record& r, Index* end) const {
+  const std::size_t cell = cell_of(r);
+  return gather(cell + pitch_, 1, gather(cell, 1, gather(cell - pitch_, 1, end)));
 }
 
-/// The first root of |d + w s| = reach, from the later of the two last collisions on, in the form
-/// that does not cancel.
-void HardDiscs::meet_in(Record& r, Index disc, int column, int row) {
-  const Cell& near = cell(column, row);
-  for (std::uint32_t k = 0; k < near.count; ++k) {
-    const Index other = near.discs[k];
-    const Record& o = records_[other];
-    const double since = std::max(r.time, o.time), wx = o.vx - r.vx, wy = o.vy - r.vy;
-    const double x = o.x - r.x + (o.vx * (since - o.time) - r.vx * (since - r.time)),
-                 y = o.y - r.y + (o.vy * (since - o.time) - r.vy * (since - r.time));
-    const double closing = -(x * wx + y * wy);
-    if (!(closing > 0.0) || other == disc) continue;
-    const double gap = x * x + y * y - reach_ * reach_;
-    if (gap > 2.001 * closing * (r.impact - since)) continue;
-    const double square = wx * wx + wy * wy, miss = x * wy - y * wx,
-                 rest = reach_ * reach_ * square - miss * miss;
-    if (rest < 0.0) continue;
-    const double time = since + std::max(0.0, gap) / (closing + std::sqrt(rest));
-    if (time >= r.impact) continue;
-    r.impact = time, r.partner = other, r.partner_collisions = o.collisions;
+/// Of the cells that its next crossing brings into sight.
+HardDiscs::Index* HardDiscs::gather_beyond(const Record& r, Index* end) const {
+  return gather(cell_of(r) + 2 * steps_[r.direction], across_[r.direction], end);
+}
+
+void HardDiscs::meet_wall(Record& r, double at, double speed, Index wall) const {
+  const double radius = 0.5 * reach_, gap = speed > 0.0 ? side_ - radius - at : at - radius;
+  const double time = r.time + std::max(0.0, gap) / std::abs(speed);
+  if (time < r.impact) r.impact = time, r.partner = wall;
+}
+
+/// When it enters the next cell; in the outer cells it meets the wall instead.
+double HardDiscs::fly(Record& r) const {
+  const bool right = r.vx > 0.0, up = r.vy > 0.0;
+  const double x = r.vx == 0.0 ? never : (edges_[r.column + right] - r.x) / r.vx,
+               y = r.vy == 0.0 ? never : (edges_[r.row + up] - r.y) / r.vy;
+  if (x == never && r.vx != 0.0) meet_wall(r, r.x, r.vx, wall_x);
+  if (y == never && r.vy != 0.0) meet_wall(r, r.y, r.vy, wall_y);
+  r.direction = (x <= y ? right : 2u + up) & 3u;
+  return r.time + std::max(0.0, std::min(x, y));
+}
+
+inline HardDiscs::Approach HardDiscs::approach(const Record& a, const Record& b) const {
+  const double since = std::max(a.time, b.time), wx = b.vx - a.vx, wy = b.vy - a.vy,
+               x = b.x - a.x + (b.vx * (since - b.time) - a.vx * (since - a.time)),
+               y = b.y - a.y + (b.vy * (since - b.time) - a.vy * (since - a.time)),
+               miss = x * wy - y * wx;
+  return {since, -(x * wx + y * wy), x * x + y * y - reach_ * reach_,
+          reach_ * reach_ * (wx * wx + wy * wy) - miss * miss};
+}
+
+/// The first root of |d + w s| = reach, in the form that does not cancel.
+void HardDiscs::meet(Record& r, const Index* near, const Index* end) const {
+  Index likely[near_max];
+  std::size_t count = 0;
+  for (; near != end; ++near) {
+    const Approach a = approach(r, records_[*near]);
+    likely[count] = *near;
+    count +=
+        (a.closing > 0.0) & (a.rest >= 0.0) & (a.gap <= 2.001 * a.closing * (r.impact - a.since));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Record& other = records_[likely[k]];
+    const Approach a = approach(r, other);
+    const double time = a.since + std::max(0.0, a.gap) / (a.closing + std::sqrt(a.rest));
+    // Whoever meets another one before will look for its next partner then, and find this disc.
+    if (time >= r.impact || other.impact < time) continue;
+    r.impact = time, r.partner = likely[k], r.partner_collisions = other.collisions;
   }
 }
 
 void HardDiscs::predict(Index disc) {
   Record& r = records_[disc];
+  Index near[near_max];
   r.impact = never, r.partner = nobody;
-  meet_walls(r);
-  for (int row = r.row - 1; row <= r.row + 1; ++row)
-    for (int column = r.column - 1; column <= r.column + 1; ++column) meet_in(r, disc, column, row);
+  const double crossing = fly(r);
+  meet(r, near, gather_around(r, near));
+  settle(disc, crossing);
 }
 
 /// Only those in the three cells that come into sight can be new.
 void HardDiscs::cross(Index disc) {
   Record& r = records_[disc];
-  const Crossing c = crossing(r);
+  Index near[near_max];
+  const Index* const end = gather_beyond(r, near);
   leave(disc);
-  r.column = static_cast<std::uint16_t>(r.column + c.columns);
-  r.row = static_cast<std::uint16_t>(r.row + c.rows);
+  const std::uint32_t step = r.direction & 1u ? 1u : ~0u;
+  if (r.direction < 2) r.column = (r.column + step) & 0x7fff;
+  else r.row = (r.row + step) & 0x7fff;
   enter(disc);
-  for (int k = -1; k <= 1; ++k)
-    if (c.columns != 0) meet_in(r, disc, r.column + c.columns, r.row + k);
-    else meet_in(r, disc, r.column + k, r.row + c.rows);
-  settle(disc);
+  const double crossing = fly(r);
+  meet(r, near, end);
+  settle(disc, crossing);
 }
 
 void HardDiscs::collide(Index disc, double time) {
@@ -122,101 +154,142 @@ void HardDiscs::collide(Index disc, double time) {
   if (a.partner >= wall_y) {
     (a.partner == wall_x ? a.vx : a.vy) *= -1.0;
   } else {
-    Record& b = records_[a.partner];
+    const Index other = a.partner;
+    Record& b = records_[other];
     move(b);
     const double x = a.x - b.x, y = a.y - b.y,
                  impulse = (x * (b.vx - a.vx) + y * (b.vy - a.vy)) / (x * x + y * y);
     a.vx += impulse * x, a.vy += impulse * y, b.vx -= impulse * x, b.vy -= impulse * y;
     ++collisions_;
-    const Index other = a.partner;
-    predict(other), settle(other);
+    predict(other);
   }
-  predict(disc), settle(disc);
+  predict(disc);
 }
 
 /// Its next event is known, and noted if it comes in this stretch.
-void HardDiscs::settle(Index disc) {
-  const double due = std::min(records_[disc].impact, crossing(records_[disc]).time);
+void HardDiscs::settle(Index disc, double crossing) {
+  const double due = std::min(records_[disc].impact, crossing);
   dues_[disc] = due;
-  if (due < stretch_end_) note(disc, due);
+  if (due < stretch_.end) note(disc, due);
 }
 
 void HardDiscs::note(Index disc, double time) {
-  const auto bucket = std::min(
-      static_cast<std::size_t>((time - stretch_begin_) * buckets_per_second_), buckets_.size() - 1);
-  if (bucket < bucket_) return sort_in(disc, time);
+  const auto bucket =
+      std::min(static_cast<std::size_t>((time - stretch_.begin) * stretch_.buckets_per_second),
+               buckets_.size() - 1);
+  if (bucket < stretch_.next_bucket) return sort_in(disc, time);
   notes_.push_back({time, disc, buckets_[bucket]});
   buckets_[bucket] = static_cast<Index>(notes_.size() - 1);
 }
 
 void HardDiscs::sort_in(Index disc, double time) {
-  due_.push_back({time, disc, nobody});
-  for (std::size_t k = due_.size() - 1; k > 0 && due_[k - 1].time < due_[k].time; --k)
-    std::swap(due_[k - 1], due_[k]);
+  ahead_.push_back({time, disc, nobody});
+  for (std::size_t k = ahead_.size() - 1; k > head_ && ahead_[k].time < ahead_[k - 1].time; --k)
+    std::swap(ahead_[k], ahead_[k - 1]);
 }
 
-/// As long as a third of the discs need for an event each, by the rate of the last one.
-void HardDiscs::open_stretch() {
-  const double last = stretch_end_ - stretch_begin_,
-               taken = static_cast<double>(events_ - events_before_);
-  double length = last > 0.0 && taken > 0.0 ? last * count() / (3.0 * taken) : 0.0;
-  const double first = *std::min_element(dues_.begin(), dues_.end());
-  if (length == 0.0) {
-    double speed = 0.0;
-    for (const Record& r : records_)
-      speed = std::max({speed, std::abs(r.vx), std::abs(r.vy), 1e-300});
-    length = 0.1 * cell_side_ / speed;
-  }
-  events_before_ = events_;
-  stretch_begin_ = first, stretch_end_ = std::max(first + length, std::nextafter(first, never));
-  buckets_.assign(count() / 8 + 1, nobody);
-  buckets_per_second_ = static_cast<double>(buckets_.size()) / (stretch_end_ - stretch_begin_);
-  bucket_ = 0;
+double HardDiscs::stretch_length() const {
+  const double last = stretch_.end - stretch_.begin,
+               taken = static_cast<double>(events_ - stretch_.events_before);
+  if (last > 0.0 && taken > 0.0) return last * count() / (4.0 * taken);
+  double speed = 1e-300;
+  for (const Record& r : records_) speed = std::max({speed, std::abs(r.vx), std::abs(r.vy)});
+  return 0.1 * side_ / columns_ / speed;
+}
+
+/// As long as a quarter of the discs need for an event each, by the rate of the last one. False if
+/// nothing happens until then.
+bool HardDiscs::open_stretch(double until) {
+  const double length = stretch_length(), first = *std::min_element(dues_.begin(), dues_.end());
+  if (first > until) return false;
+  stretch_.events_before = events_;
+  stretch_.begin = first, stretch_.end = std::max(first + length, std::nextafter(first, never));
+  buckets_.assign(count() / 4 + 1, nobody);
+  stretch_.buckets_per_second =
+      static_cast<double>(buckets_.size()) / (stretch_.end - stretch_.begin);
+  stretch_.next_bucket = 0;
   notes_.clear();
   for (Index disc = 0; disc < count(); ++disc)
-    if (dues_[disc] < stretch_end_) note(disc, dues_[disc]);
+    if (dues_[disc] < stretch_.end) note(disc, dues_[disc]);
+  return true;
 }
 
-/// Who has the first event of the stretch; nobody if it is over.
-HardDiscs::Index HardDiscs::next() {
-  for (;;) {
-    for (; !due_.empty(); due_.pop_back())
-      if (dues_[due_.back().disc] == due_.back().time) return due_.back().disc;
-    if (bucket_ == buckets_.size()) return nobody;
-    // Whoever comes in the bucket after that is fetched meanwhile.
-    if (bucket_ + 1 < buckets_.size())
-      for (Index k = buckets_[bucket_ + 1]; k != nobody; k = notes_[k].next) {
-        __builtin_prefetch(&records_[notes_[k].disc]);
-        __builtin_prefetch(&dues_[notes_[k].disc]);
-      }
-    const Index first = buckets_[bucket_++];
-    for (Index k = first; k != nobody; k = notes_[k].next)
-      if (dues_[notes_[k].disc] == notes_[k].time) sort_in(notes_[k].disc, notes_[k].time);
+/// What process() will read of the cells, and the partner.
+void HardDiscs::fetch_cells(Index disc) const {
+  const Record& r = records_[disc];
+  const std::size_t cell = cell_of(r);
+  const auto fetch = [&](std::size_t centre, std::size_t across) {
+    for (const std::size_t k : {centre - across, centre, centre + across})
+      __builtin_prefetch(&cells_[k * cell_size_]);
+  };
+  if (dues_[disc] < r.impact) {
+    const std::size_t step = steps_[r.direction];
+    fetch(cell + step + step, across_[r.direction]);
+    __builtin_prefetch(&cells_[cell * cell_size_]);
+    __builtin_prefetch(&cells_[(cell + step) * cell_size_]);
+  } else {
+    for (const std::size_t middle : {cell - pitch_, cell, cell + pitch_}) fetch(middle, 1);
+    if (r.partner < wall_y) __builtin_prefetch(&records_[r.partner]);
   }
 }
 
-void HardDiscs::advance(double until, const std::function<void(const Collision&)>& see) {
+void HardDiscs::fetch_discs(Index disc) const {
+  const Record& r = records_[disc];
+  Index near[near_max];
+  const Index* const end = dues_[disc] < r.impact ? gather_beyond(r, near) : gather_around(r, near);
+  for (const Index* k = near; k != end; ++k) __builtin_prefetch(&records_[*k]);
+}
+
+void HardDiscs::order_next_bucket() {
+  for (Index k = buckets_[stretch_.next_bucket++]; k != nobody; k = notes_[k].next) {
+    __builtin_prefetch(&records_[notes_[k].disc]);
+    __builtin_prefetch(&dues_[notes_[k].disc]);
+    sort_in(notes_[k].disc, notes_[k].time);
+  }
+}
+
+/// Three steps, each a while before the next, as each reads what the one before it fetched.
+void HardDiscs::look_ahead() {
+  if (head_ >= 512) {
+    ahead_.erase(ahead_.begin(), ahead_.begin() + static_cast<std::ptrdiff_t>(head_));
+    head_ = 0;
+  }
+  while (ahead_.size() < head_ + order_ahead && stretch_.next_bucket < buckets_.size())
+    order_next_bucket();
+  if (head_ + cells_ahead < ahead_.size()) fetch_cells(ahead_[head_ + cells_ahead].disc);
+  if (head_ + discs_ahead < ahead_.size()) fetch_discs(ahead_[head_ + discs_ahead].disc);
+}
+
+/// The next event of the stretch, at head_. False if it is over.
+bool HardDiscs::find_next() {
+  for (;; ++head_) {
+    look_ahead();
+    if (head_ == ahead_.size()) return false;
+    if (dues_[ahead_[head_].disc] == ahead_[head_].time) return true;
+  }
+}
+
+void HardDiscs::process(Index disc, double time, const See& see) {
+  const Record& r = records_[disc];
+  const Index partner = r.partner;
+  ++events_;
+  if (time < r.impact) return cross(disc);
+  if (partner < wall_y && records_[partner].collisions != r.partner_collisions)
+    return predict(disc);
+  collide(disc, time);
+  if (see && partner < wall_y) see({time, std::min(disc, partner), std::max(disc, partner)});
+}
+
+void HardDiscs::advance(double until, const See& see) {
   assert(until >= now_ && until < never);
   for (;;) {
-    const Index disc = next();
-    if (disc == nobody) {
-      if (stretch_end_ > until) break;
-      if (*std::min_element(dues_.begin(), dues_.end()) > until) break;
-      open_stretch();
-      continue;
-    }
-    const double time = dues_[disc];
-    if (time > until) break;
-    due_.pop_back();
-    ++events_;
-    const Record& r = records_[disc];
-    const Index partner = r.partner;
-    if (time < r.impact) cross(disc);
-    else if (partner < wall_y && records_[partner].collisions != r.partner_collisions)
-      predict(disc), settle(disc);
-    else {
-      collide(disc, time);
-      if (see && partner < wall_y) see({time, std::min(disc, partner), std::max(disc, partner)});
+    if (find_next()) {
+      const Note next = ahead_[head_];
+      if (next.time > until) break;
+      ++head_;
+      process(next.disc, next.time, see);
+    } else if (stretch_.end > until || !open_stretch(until)) {
+      break;
     }
   }
   now_ = until;
@@ -230,19 +303,18 @@ double HardDiscs::kinetic_energy() const {
 
 double HardDiscs::max_overlap() const {
   double deepest = 0.0;
-  for (const Record& a : records_)
-    for (int row = a.row - 1; row <= a.row + 1; ++row)
-      for (int column = a.column - 1; column <= a.column + 1; ++column) {
-        const Cell& near = cell(column, row);
-        for (std::uint32_t k = 0; k < near.count; ++k) {
-          const Record& b = records_[near.discs[k]];
-          if (&a == &b) continue;
-          const auto at = [&](double x, double v, double since) { return x + v * (now_ - since); };
-          const double x = at(b.x, b.vx, b.time) - at(a.x, a.vx, a.time),
-                       y = at(b.y, b.vy, b.time) - at(a.y, a.vy, a.time);
-          deepest = std::max(deepest, reach_ - std::sqrt(x * x + y * y));
-        }
-      }
+  Index near[near_max];
+  for (const Record& a : records_) {
+    const Index* const end = gather_around(a, near);
+    for (const Index* k = near; k != end; ++k) {
+      const Record& b = records_[*k];
+      if (&a == &b) continue;
+      const auto at = [&](double x, double v, double since) { return x + v * (now_ - since); };
+      const double x = at(b.x, b.vx, b.time) - at(a.x, a.vx, a.time),
+                   y = at(b.y, b.vy, b.time) - at(a.y, a.vy, a.time);
+      deepest = std::max(deepest, reach_ - std::sqrt(x * x + y * y));
+    }
+  }
   return deepest;
 }
 

@@ -21,7 +21,7 @@ ROUNDING_US = 0.5e-3  # evidence has the cost of each tick to the nanosecond, wh
 HEADERS = 66  # bytes: Ethernet 14, IPv4 20, TCP with timestamps 32
 PARAMETERS = (("view_fraction", "view", "0.05"), ("view_margin", "margin", "0.3"), ("sweep_ticks", "sweep", "0"),
               ("cell_size", "cell", "0"), ("tick_rate_hz", "rate", "30"), ("threshold", "threshold", "0.005"),
-              ("extrapolate", "extrapolate", "1"))  # column, what file names call it, what they leave out
+              ("extrapolate", "extrapolate", "1"), ("nodes", "nodes", "1"))  # column, what file names call it, what they leave out
 KEYS = ("part", "mode", "scheme", "policy", "clients", "pucks", "bats", "server_cores") + tuple(p[0] for p in PARAMETERS) + ("seed",)
 COSTS = ("physics_us_per_tick", "filter_us_per_tick", "send_us_per_tick")
 OF_TRUTH = ("filter_precision", "filter_recall", "delivered_", "interactions", "missed_", "late_entry_", "position_error_", "displayed_error_", "wasted_")
@@ -97,8 +97,11 @@ def traffic_figures(server, bots):
     clients, span, bots_span = server["clients"], server["measured_s"], bots["measured_s"]
     down, up = server["bytes_sent"], server["bytes_received"]
     figures = {"down_bytes_per_client_per_s": down / span / clients, "up_bytes_per_client_per_s": up / span / clients}
-    figures["busiest_node_bytes_per_s"] = (down + up) / span
-    figures["busiest_node_events_per_s"] = server["physics_events"] / span
+    if "between_nodes_bytes" in server:  # of several nodes; what each sent whom is in its own report
+        figures["between_nodes_bytes_per_s"] = server["between_nodes_bytes"] / span
+    else:
+        figures["busiest_node_bytes_per_s"] = (down + up) / span
+        figures["busiest_node_events_per_s"] = server["physics_events"] / span
     figures["messages_per_s"] = server["messages_sent"] / span
     figures["writes_per_s"] = server["writes_sent"] / span
     wire = segments = pure = 0.0
@@ -107,7 +110,8 @@ def traffic_figures(server, bots):
         wire += (end["bytes_sent"] + HEADERS * (end["segments_sent"] + acknowledgements)) / seconds
         segments += end["segments_sent"] / seconds
         pure += acknowledgements / seconds
-    figures.update(wire_bytes_per_client_per_s=wire / clients, segments_per_s=segments, acknowledgements_per_s=pure)
+    link = server["busiest_link_bytes"] / span if "busiest_link_bytes" in server else wire
+    figures.update(wire_bytes_per_client_per_s=wire / clients, busiest_link_bytes_per_s=link, segments_per_s=segments, acknowledgements_per_s=pure)
     states, keys = server["state_bytes_sent"], server["key_bytes_received"]
     control = max(0, down + up - states - keys)
     figures["control_bytes_fraction"] = control / (down + up)
@@ -124,9 +128,11 @@ def peer_figures(peers):
     """Payload and events of peers, from what they counted within the measured span: what all send is what all receive."""
     clients, span = peers["clients"], peers["measured_s"]
     figures = {"down_bytes_per_client_per_s": peers["bytes_sent"] / span / clients, "up_bytes_per_client_per_s": peers["bytes_received"] / span / clients}
-    for subject in ("halo", "claims", "agreement", "interest", "updates", "keys"):
+    for subject in ("halo", "claims", "agreement", "interest", "updates", "keys", "standby"):
         figures[subject + "_bytes_per_client_per_s"] = peers[subject + "_bytes"] / span / clients
     figures["busiest_node_bytes_per_s"], figures["busiest_node_events_per_s"] = peers["busiest_node_bytes"] / span, peers["busiest_node_events"] / span
+    if "busiest_link_bytes" in peers:
+        figures["busiest_link_bytes_per_s"] = peers["busiest_link_bytes"] / span
     return figures
 
 

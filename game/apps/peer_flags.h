@@ -18,7 +18,8 @@ struct PeerOptions {
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, bots = 0;
   bool says_peers = false;  ///< --peers was given
   double patience_s = 30.0;
-  Terms terms{.peer_count = 2, .until = 10.0, .window = 0.02, .balance_windows = 25};
+  Terms terms{
+      .peer_count = 2, .until = 10.0, .window = 0.02, .balance_windows = balance_windows_default};
   ViewingOptions viewing;
 };
 

@@ -6,7 +6,6 @@
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <random>
 #include <string>
 #include <thread>
 
@@ -14,6 +13,7 @@
 #include "game/apps/peer_flags.h"
 #include "game/apps/peer_ranks.h"
 #include "game/apps/peer_report.h"
+#include "game/apps/rank_command.h"
 #include "game/control/key_log_file.h"
 #include "game/model/report_fields.h"
 #include "game/model/scene_file.h"
@@ -23,7 +23,10 @@
 #include "game/net/peer/crowd.h"
 #include "game/net/peer/network/listening_place.h"
 #include "game/net/peer/network/peer_network.h"
+#include "game/net/peer/network/session_error.h"
+#include "game/net/peer/network/unguessable_number.h"
 #include "game/net/peer/shared_game.h"
+#include "game/net/peer/start_together.h"
 #include "game/net/record_file.h"
 #include "game/version/version.h"
 #include "rti/transport/socket_transport.h"
@@ -163,14 +166,14 @@ ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& sha
   }
 }
 
-ExitStatus run(const PeerOptions& options) {
+ExitStatus run(const PeerOptions& options, RankCommand& command) {
   const RecordFile record("--record", options.record);
   require_writable("--report", options.report);
   require_writable("--evidence", options.viewing.trace);
   if (!options.viewing.trace.empty() && (options.pace != "realtime" || options.transport == "mpi"))
     throw std::invalid_argument(
         "--evidence: latencies are those of the clock: expected --pace realtime, and no mpi");
-  if (options.transport == "mpi") return share_among_ranks(options);
+  if (options.transport == "mpi") return share_among_ranks(options, command);
   SharedGame shared = game_of(options);
   if (options.join.empty()) shared.require_window(options.terms.window);
   if (options.bots > shared.bat_count())
@@ -189,21 +192,16 @@ ExitStatus run(const PeerOptions& options) {
   place.port = sockets.listen(place.address, place.port);
   std::printf("listening on %s\n", place.text().c_str());
   std::fflush(stdout);
-  const auto unpredictable_number = [] {
-    std::random_device device;
-    const std::uint64_t upper = device();
-    return upper << 32 | device();
-  };
   for (int tries = 1;; ++tries) {
     const PeerInfo self{.place = place,
                         .bat_count = options.bots,
                         .puck_count = Crowd::pucks_wanted(shared.scene(), options.players),
-                        .token = unpredictable_number()};
+                        .token = unguessable_number()};
     PeerNetwork network(sockets,
                         {.self = self,
                          .bats = shared.bat_count(),
                          .session_fingerprint = shared.session_fingerprint(),
-                         .session = unpredictable_number(),
+                         .session = unguessable_number(),
                          .patience_s = options.patience_s},
                         now_s);
     try {
@@ -219,6 +217,7 @@ ExitStatus run(const PeerOptions& options) {
 }
 
 int status_of(const std::exception& error) {
+  if (const auto status = session_status(error)) return static_cast<int>(*status);
   return static_cast<int>(exit_status(error, {.bad_address = ExitStatus::address_in_use,
                                               .too_many_files = ExitStatus::failed,
                                               .otherwise = ExitStatus::failed}));
@@ -238,7 +237,8 @@ int main(int count, char** words) {
                      {.run =
                           [&] {
                             options.says_peers = flags.is_given("--peers");
-                            return static_cast<int>(run(options));
+                            RankCommand command(status_of);
+                            return command.run([&] { return run(options, command); });
                           },
                       .status_of = status_of});
 }

@@ -1,21 +1,39 @@
 // Defines the flags of rink serve and its help text.
 #include "game/apps/serve_flags.h"
 
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "game/apps/rank_command.h"
 #include "game/net/exit_status.h"
 #include "game/net/limits.h"
+#include "game/net/peer/network/greetings.h"
 #include "game/net/relevant_kinds.h"
 #include "game/process/thread_team.h"
 #include "im/filter.h"
 #include "rti/transport/socket_transport.h"
 
 namespace rink::game {
+namespace {
+
+std::vector<std::string> transport_names() {
+  std::vector<std::string> names(rti::socket_transport_names.begin(),
+                                 rti::socket_transport_names.end());
+  names.emplace_back("mpi");
+  return names;
+}
+
+}  // namespace
 
 void add_options(Flags& flags, ServeOptions& options) {
   flags.description(
       "The server federate: simulates a scene exactly and sends each client what lies in its "
       "interest.");
   flags.footer(std::string("Example: rink serve --scene crowd --clients 100 --scheme region "
-                           "--duration 30 --report server.json\n\n") +
+                           "--duration 30 --report server.json\n"
+                           "Nodes as ranks of MPI (docs/cluster.md): mpirun -np 4 --oversubscribe "
+                           "build/bin/rink-serve --transport mpi --scene arena --duration 20\n\n") +
                exit_status_help);
   flags.name("rink serve");
   flags.option("match", options.hosted,
@@ -25,8 +43,9 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(number_from(0.0, 60.0))
       .shows_default();
   flags
-      .option("--absence", options.absence_s,
-              "how long a hosted match waits for a player that has left [s]")
+      .option(
+          "--absence", options.absence_s,
+          "how long a hosted match waits for a player that has left, and nodes keep its bat [s]")
       .check(number_from(0.0, 3600.0))
       .shows_default();
   flags.option("--scene", options.scene, "preset (match, crowd) or TOML file").shows_default();
@@ -55,14 +74,18 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(not_empty())
       .excludes(file)
       .shows_default();
-  flags.option("--port", options.port, "port to listen on; 0: any free one, printed")
+  flags
+      .option("--port", options.port,
+              "port to listen on; 0: any free one, printed; with --transport mpi rank K listens "
+              "at this port + K, without --port at any free one")
       .excludes(file)
       .shows_default();
   flags
       .option("--transport", options.transport,
               "tcp; udp: best-effort attributes by UDP beside it; shm: shared memory, clients "
-              "of this machine only, by the port")
-      .check(one_of({rti::socket_transport_names.begin(), rti::socket_transport_names.end()}))
+              "of this machine only, by the port; mpi: all ranks of an mpirun are nodes, with "
+              "clients by TCP or UDP (docs/cluster.md)")
+      .check(one_of(transport_names()))
       .shows_default();
   flags
       .option("--key-file", options.key_file,
@@ -157,7 +180,34 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags.option("--clients", options.clients, "players to wait for before the start")
       .check(number_from(0, bats_max))
       .shows_default();
-  flags.option("--patience", options.patience_s, "seconds to wait for these players")
+  flags
+      .option("--patience", options.patience_s,
+              "seconds to wait for these players, for other nodes, and for their players")
+      .check(number_from(0.001, seconds_max))
+      .shows_default();
+  const Flag join = flags.option(
+      "--join", options.join,
+      "HOST:PORT of any node: share its simulation, whose --duration and --rate hold (docs/"
+      "peer-to-peer.md, Nodes); --clients players are seated here");
+  flags
+      .option("--nodes", options.nodes,
+              "number of servers that share the simulation, of which this is the first; 0: no "
+              "others")
+      .check(number_from(0, peers_max))
+      .excludes(join)
+      .shows_default();
+  flags
+      .option("--balance", options.balance_windows,
+              "period [ticks] in which the nodes' zones shift toward equal numbers of events, if "
+              "these are uneven; 0: they stay; set by the first node")
+      .check(whole_number_from(0, 1'000'000u))
+      .excludes(join)
+      .shows_default();
+  flags.option("--node-listen", options.node_listen,
+               "ADDRESS:PORT at which other nodes reach this one; port 0: any free one, printed");
+  flags
+      .option("--node-patience", options.node_patience_s,
+              "seconds of silence after which another node is lost")
       .check(number_from(0.001, seconds_max))
       .shows_default();
   flags
@@ -195,6 +245,27 @@ void host_by_default(const Flags& flags, ServeOptions& options) {
   if (!flags.is_given("--policy")) options.policy = "on-event";
   if (!flags.is_given("--rate")) options.rate_hz = 60.0;
   if (!flags.is_given("--record")) options.record = "matches";
+}
+
+void serve_among_ranks(const Flags& flags, ServeOptions& options) {
+  if (options.transport != "mpi") return;
+  if (flags.is_given("--nodes") || flags.is_given("--join") || flags.is_given("--node-listen"))
+    throw said_by_launcher("--nodes, --join, --node-listen");
+  options.is_rank = true;
+  // Who asks for a server's status needs no datagrams.
+  options.transport = options.status.empty() ? "udp" : "tcp";
+  if (!flags.is_given("--port")) options.port = 0;
+}
+
+void require_heeded(const Flags& flags, const ServeOptions& options) {
+  if (is_node(options) && flags.is_given("--budget"))
+    throw std::runtime_error(
+        "--budget: nodes play each window whole, or others would have to wait for what one has put "
+        "off: it can't be given with --nodes, --join and --transport mpi");
+  if (!options.join.empty() && flags.is_given("--absence"))
+    throw std::runtime_error(
+        "--absence: the first node, which gives out the bats, decides how long one is kept: it "
+        "can't be given with --join");
 }
 
 }  // namespace rink::game

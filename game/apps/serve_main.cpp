@@ -1,13 +1,20 @@
 // rink serve: the server federate and, beside it, the RTI with its filter, on a real-time or
 // synchronous tick.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <exception>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "game/apps/command.h"
+#include "game/apps/rank_command.h"
 #include "game/apps/serve_flags.h"
+#include "game/apps/serve_rank.h"
 #include "game/apps/server_process.h"
 #include "game/control/key_log_file.h"
 #include "game/model/report_fields.h"
@@ -15,12 +22,21 @@
 #include "game/net/exit_status.h"
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
+#include "game/net/peer/network/listening_place.h"
+#include "game/net/peer/network/session_error.h"
 #include "game/net/record_file.h"
 #include "game/net/server/serve_requirements.h"
 #include "game/net/server/serve_status.h"
+#include "game/net/server/serving.h"
+#include "game/node/node.h"
+#include "game/node/rank_meeting.h"
+#include "game/node/socket_meeting.h"
 #include "game/process/thread_team.h"
+#include "game/replication/scheme_reach.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
+#include "im/basics/hexadecimal.h"
+#include "im/filter.h"
 #include "rti/federation_file.h"
 
 namespace rink::game {
@@ -53,33 +69,127 @@ ExitStatus show_status(const ServeOptions& options) try {
   return ExitStatus::no_server;
 }
 
-/// The game of the options, if there is room for it and enough bodies for the threads.
-ServedGame game_of(const ServeOptions& options) {
+/// The game of the options, if there is room for it and enough bodies for the threads. A rank has
+/// options of its own once it is one.
+ServedGame game_of(ServeOptions& options, RankCommand& command) {
   ServedGame played = served_game(options);
+  if (options.is_rank) become_rank(options, command.begin());
   require_room(options, played.scene);
   const auto objection = objection_to_threads(options.threads, count_of(played.scene.bodies));
   if (objection) throw std::runtime_error("--threads: " + *objection);
   return played;
 }
 
-ExitStatus serve(ServeOptions& options) {
+/// How far beyond its region a client may be shown something by the filter of the options. Schemes
+/// that look ahead, and swept regions, ask how fast other bodies are, so all must be there.
+SchemeReach reach_of_clients(const ServeOptions& options, const SharedGame& game) {
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  const im::FilterSettings settings =
+      federation_settings(game.scene(), options.scheme, options.cell_size).filter_settings;
+  if (options.sweep_ticks > 0 || im::make_filter(options.scheme, settings)->traits().uses_flights)
+    return {everywhere, everywhere};
+  return reach_of(options.scheme, settings, game.extent_max());
+}
+
+/// How the server meets others. Null for a server alone.
+std::unique_ptr<Meeting> meeting_of(const ServeOptions& options, RankCommand& command) {
+  if (!is_node(options)) return nullptr;
+  const auto terms = [&](std::uint32_t nodes) {
+    const double tick_s = 1.0 / options.rate_hz;
+    return options.hosted.empty()
+               ? terms_of_nodes(nodes, options.duration_s, tick_s, options.balance_windows)
+               : terms_of_matches(nodes, tick_s, options.balance_windows);
+  };
+  if (options.is_rank) return std::make_unique<RankMeeting>(command.ranks(), terms(1));
+  const Place place = listening_place(options.node_listen, options.join, true,
+                                      {.listen = "--node-listen", .join = "--join"});
+  if (options.join.empty()) return std::make_unique<SocketMeeting>(place, terms(options.nodes));
+  const auto [address, port] = address_and_port("--join", options.join);
+  return std::make_unique<SocketMeeting>(place, Place{address, port});
+}
+
+/// The node that plays the game together with others, once all have met; its terms hold. Null for
+/// a server alone.
+std::unique_ptr<Node> node_of(ServeOptions& options, std::optional<SharedGame>& game,
+                              Meeting* meeting) {
+  if (!game || meeting == nullptr) return nullptr;
+  NodeSettings settings;
+  const bool is_hosting = !options.hosted.empty();
+  settings.player_count = is_hosting ? 0 : options.clients;
+  if (is_hosting)
+    settings.hosting = {.countdown_s = options.countdown_s, .patience_s = options.absence_s};
+  settings.patience_s = options.node_patience_s, settings.gathering_s = options.patience_s;
+  settings.reach = reach_of_clients(options, *game);
+  settings.absence_s = options.absence_s;
+  auto node = std::make_unique<Node>(*game, *meeting, settings, now_s);
+  if (const std::optional<Place> place = meeting->place()) {
+    std::printf("nodes reach this one at %s\n", place->text().c_str());
+    std::fflush(stdout);
+  }
+  node->meet();
+  std::printf("this is node %u of %u, with %u players from bat %u on\n", node->number(),
+              node->terms().peer_count, node->player_count(), node->first_player());
+  std::fflush(stdout);
+  if (!is_hosting) options.duration_s = node->terms().until;
+  options.rate_hz = 1.0 / node->terms().window;
+  return node;
+}
+
+double mean(std::uint64_t sum, std::uint64_t count) {
+  return static_cast<double>(sum) / static_cast<double>(std::max<std::uint64_t>(1, count));
+}
+
+/// What all nodes have played together is what this one has shown, bit for bit.
+void end_together(Node& node, ServerProcess& process) {
+  process.show_rest();
+  if (is_interrupted || !process.server().error().empty()) return;
+  const PlayedPart& part = node.finish();
+  const std::string hash = hexadecimal(part.hash);
+  std::printf("node %u of %u: hash %s at %g s, %zu keys, goals %u:%u\n", node.number(),
+              node.terms().peer_count, hash.c_str(), part.time, part.keys.size(), part.score.left,
+              part.score.right);
+  const TellingCounters& told = node.telling();
+  std::printf("told others of %.1f bodies a window, in %.0f bytes; zones shifted %llu times\n",
+              mean(told.bodies, told.windows), mean(told.bytes, told.windows),
+              static_cast<unsigned long long>(part.counters.shifts));
+  std::fflush(stdout);
+  if (const std::uint64_t shown = process.server().game().hash(); shown != part.hash)
+    throw SessionError(ExitStatus::failed, "this node has shown another game than was played: " +
+                                               hexadecimal(shown) + " instead of " + hash);
+}
+
+ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (!options.status.empty()) return show_status(options);
   const rti::FederationFile file = follow_federation_file(options);
   const std::string& federation = file.federation;
   const rti::Fom fom = load_rink_fom(file.fom);
-  ServedGame played = game_of(options);
+  ServedGame played = game_of(options, command);
+  std::optional<SharedGame> shared;
+  if (is_node(options)) shared.emplace(played.scene, std::vector<InputEvent>{});
   ThreadTeam team(options.threads);
   played.scene.world.slabs = physics::SlabPlan{.workers = &team};
   rti::ensure_file_limit(options.clients + 64u);
+  const std::unique_ptr<Meeting> meeting = meeting_of(options, command);
+  const std::unique_ptr<Node> node = node_of(options, shared, meeting.get());
+  played.shared = node.get();
   ServerProcess process(options, fom, played, federation);
   const std::uint16_t port = process.listen();
-  std::printf("listening on %s:%u\n", options.address.c_str(), static_cast<unsigned>(port));
+  const std::string rank = options.is_rank ? "rank " + std::to_string(node->number()) + ": " : "";
+  std::printf("%slistening on %s:%u\n", rank.c_str(), options.address.c_str(),
+              static_cast<unsigned>(port));
   std::fflush(stdout);
   process.try_records();
   const bool is_complete = process.start();
   const std::uint32_t came = process.server().seats().player_count();  // before they leave
   const std::string missing = is_complete ? "" : process.missing();
-  if (is_complete) process.run();
+  std::exception_ptr lost;  // what ended a shared game early: reports and records come first
+  if (is_complete) try {
+      process.run();
+      if (node && options.hosted.empty()) end_together(*node, process);
+    } catch (const std::exception&) {
+      if (!node) throw;
+      lost = std::current_exception();
+    }
   Json report = process.report();
   // Trace and record come before the players leave, since the hash is of this instant.
   std::optional<ServerTrace> trace = process.trace(played);
@@ -98,6 +208,7 @@ ExitStatus serve(ServeOptions& options) {
   if (trace) write_trace(options.trace, *trace);
   if (!options.record.empty() && options.hosted.empty()) write_key_log(options.record, log);
   if (is_interrupted) return ExitStatus::interrupted;
+  if (lost) std::rethrow_exception(lost);
   if (!process.server().error().empty()) {
     complain("the server's own federate left the federation: ", process.server().error());
     return ExitStatus::failed;
@@ -115,6 +226,7 @@ ExitStatus serve(ServeOptions& options) {
 }
 
 int status_of(const std::exception& error) {
+  if (const auto status = session_status(error)) return static_cast<int>(*status);
   return static_cast<int>(exit_status(error, {.bad_address = ExitStatus::address_in_use,
                                               .too_many_files = ExitStatus::too_few_files,
                                               .otherwise = ExitStatus::failed}));
@@ -134,7 +246,10 @@ int main(int count, char** words) {
                      {.run =
                           [&] {
                             host_by_default(flags, options);
-                            return static_cast<int>(serve(options));
+                            serve_among_ranks(flags, options);
+                            require_heeded(flags, options);
+                            RankCommand command(status_of);
+                            return command.run([&] { return serve(options, command); });
                           },
                       .status_of = status_of});
 }

@@ -2,6 +2,7 @@
 #include "game/apps/server_process.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -21,6 +22,15 @@ using Json = nlohmann::ordered_json;
 
 /// The due instant in stamps before the start, when nothing is due yet.
 constexpr double not_started_s = 0.0;
+
+/// The bat of a player that has left before the start goes to whoever comes.
+double begin(SharedPlay& shared, const Seats& seats) {
+  const double start_s = shared.begin();
+  for (std::uint32_t player = shared.first_player();
+       player < shared.first_player() + shared.player_count(); ++player)
+    if (!seats.federate_of(player)) shared.leave_seat(player, SharedPlay::nobody);
+  return start_s;
+}
 
 }  // namespace
 
@@ -42,14 +52,16 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                 .key_limit_per_s = options.key_limit_per_s,
                 .events_per_s = options.events_per_s,
                 .always_relevant = relevant_kinds_of(played.scene, options.always),
-                .begun = played.begun ? &*played.begun : nullptr},
+                .state = played.state,
+                .shared = played.shared},
                federation_of(options, played.scene, federation,
                              options.has_second_core ? &second_core_.emplace() : nullptr),
                {now_s, [this] { return simulated_now(); }}),
       clients_(sockets_.get()),
       stagger_(clients_.add<rti::Stagger>(options.spread / options.rate_hz, now_s)),
       server_(serving_.server()),
-      records_(options.record) {
+      records_(options.record),
+      shared_(played.shared) {
   add_gate(clients_,
            {.key_file = options.key_file,
             .federation = federation,
@@ -84,6 +96,15 @@ void ServerProcess::exchange_until(double until_s) {
   while (now_s() < until_s && !is_interrupted);
 }
 
+/// What other nodes play is shown as soon as all have told it. Players wait for it no longer than
+/// most of a tick's period: then the tick goes out without it.
+void ServerProcess::await_window(double due_s, double until) {
+  constexpr double look_s = 0.001, patience = 0.75;  // the second is a part of the period
+  const double give_up_s = due_s + patience / options_.rate_hz;
+  while (!is_interrupted && now_s() < give_up_s && !shared_->has_come(until))
+    serving_.exchange(std::clamp(give_up_s - now_s(), 0.0, look_s));
+}
+
 /// However long the players take, silence is noticed and heartbeats are sent.
 void ServerProcess::await_turns() {
   if (server_.game().is_cut_short()) serving_.exchange(0.0);  // it may not wait for anybody
@@ -100,6 +121,7 @@ void ServerProcess::await_turns() {
 void ServerProcess::wait(double seconds) {
   TickCosts uncounted;
   serving_.exchange(seconds);
+  if (shared_) shared_->check();
   if (server_.is_joined() && server_.error().empty())
     serving_.send(begin_s_, not_started_s, uncounted);
   serving_.host().advance_clock(now_s());
@@ -117,7 +139,9 @@ bool ServerProcess::start() {
   if (!are_all_there()) return false;
   server_.call_to_start();
   while (!server_.is_started() && may_wait()) wait(0.005);
-  return server_.is_started();
+  // The players of other nodes may take as long as these.
+  while (server_.is_started() && shared_ && !shared_->may_begin() && may_wait()) wait(0.005);
+  return server_.is_started() && (!shared_ || shared_->may_begin());
 }
 
 void ServerProcess::tick(std::uint64_t number, bool is_counted) {
@@ -126,6 +150,7 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   const double simulated_s =
       options_.hosted.empty() ? goal(number) : server_.follow_match(elapsed_s);
   const double due_s = options_.pace == "synchronous" ? now_s() : start_s_ + elapsed_s;
+  if (shared_) await_window(due_s, simulated_s);
   const TickCosts tick = serving_.tick(simulated_s, due_s);
   fall_behind(elapsed_s, simulated_s);
   keep_records();
@@ -139,9 +164,12 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
 }
 
-/// Under time management ticks keep to their grid whatever has been put off.
+/// Under time management ticks keep to their grid whatever has been put off. Nodes play a window
+/// where it begins, so that it is there long before it ends: waiting for its end would only delay
+/// the keys.
 double ServerProcess::goal(std::uint64_t number) const {
   const double period_s = 1.0 / options_.rate_hz;
+  if (shared_) return static_cast<double>(number + 1) * period_s;
   if (options_.is_time_managed)
     return begin_s_ + static_cast<double>(number - ticks_put_off_) * period_s;
   return begin_s_ + static_cast<double>(number) * period_s - behind_s_;
@@ -159,9 +187,16 @@ void ServerProcess::fall_behind(double elapsed_s, double simulated_s) {
   else if (played_s < simulated_s) server_.hosted()->fall_behind(elapsed_s, played_s);
 }
 
+/// Where a side has won early, players find the game standing still until they leave, or its agreed
+/// end: they would take a server that ends for lost.
+bool ServerProcess::has_ended() const {
+  if (!shared_ || !options_.hosted.empty() || !shared_->has_shown_all()) return false;
+  return !server_.game().is_over() || server_.seats().player_count() == 0;
+}
+
 void ServerProcess::run() {
   constexpr double lead_s = 0.1;  // so that the first tick is not late
-  start_s_ = now_s() + lead_s;
+  start_s_ = shared_ ? begin(*shared_, server_.seats()) : now_s() + lead_s;
   const std::uint64_t last =
       options_.duration_s > 0.0
           ? static_cast<std::uint64_t>(std::floor(options_.duration_s * options_.rate_hz + 1e-9))
@@ -172,12 +207,12 @@ void ServerProcess::run() {
     const double simulated_s = static_cast<double>(number) / options_.rate_hz;
     if (options_.pace == "synchronous") await_turns();
     else exchange_until(start_s_ + simulated_s);
-    if (is_interrupted || !server_.error().empty()) break;
+    if (is_interrupted || !server_.error().empty() || has_ended()) break;
     if (!is_measuring && simulated_s >= options_.warm_up_s) {
       is_measuring = true;
       costs_.from_s = now_s();
       stagger_.forget_bursts();
-      costs_.begin = counts_of(serving_, sockets_.totals());
+      costs_.begin = counts();
     }
     // The last tick closes the span and is not in it: n ticks, and the n periods that they begin.
     if (is_measuring && number == last) end_span();
@@ -186,10 +221,24 @@ void ServerProcess::run() {
   if (is_measuring && !costs_.has_ended) end_span();
 }
 
+void ServerProcess::show_rest() {
+  assert(shared_);
+  while (!shared_->has_shown_all() && !is_interrupted && server_.error().empty()) {
+    serving_.exchange(0.005);
+    serving_.tick(options_.duration_s, now_s());
+  }
+}
+
 void ServerProcess::end_span() {
   costs_.has_ended = true;
   costs_.span_s = now_s() - costs_.from_s;
-  costs_.end = counts_of(serving_, sockets_.totals());
+  costs_.end = counts();
+}
+
+ServingCounts ServerProcess::counts() const {
+  ServingCounts counts = counts_of(serving_, sockets_.totals());
+  if (shared_) counts.to_nodes = shared_->sent();
+  return counts;
 }
 
 std::string ServerProcess::missing() const {

@@ -41,6 +41,8 @@ class ServerProcess {
   /// Waits for the players and the start barrier; false if they did not all come in time.
   bool start();
   void run();
+  /// Of a node: shows what is left of the game that all have played.
+  void show_rest();
   /// Lets the clients resign.
   void end();
 
@@ -60,9 +62,12 @@ class ServerProcess {
   void wait(double seconds);
   void exchange_until(double until_s);
   void await_turns();
+  void await_window(double due_s, double until);
   void tick(std::uint64_t number, bool is_counted);
   void end_span();
+  ServingCounts counts() const;
   double goal(std::uint64_t number) const;
+  bool has_ended() const;
   void fall_behind(double elapsed_s, double simulated_s);
   void keep_records();
   void report_flood();
@@ -76,6 +81,7 @@ class ServerProcess {
   rti::Stagger& stagger_;
   Server& server_;
   MatchRecords records_;
+  SharedPlay* shared_;  ///< null: this server alone plays
   double start_s_ = 0.0;
   double behind_s_ = 0.0;            ///< simulated time that was lost to the physics' budget
   std::uint64_t ticks_put_off_ = 0;  ///< under time management: it, in ticks

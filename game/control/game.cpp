@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "game/control/free_place.h"
+#include "game/physics/subdomain.h"
 #include "im/basics/checked.h"
 
 namespace rink::game {
@@ -113,6 +114,27 @@ bool Game::play(double until, physics::EventBudget* budget) {
          "all that was due has been done");
   if constexpr (checks_whole_structures) check();
   return true;
+}
+
+void Game::show(double until, std::span<const ShownBody> bodies, std::span<const InputEvent> keys,
+                const ShownScore& score) {
+  assert(world_ != nullptr && std::isfinite(until) && until >= now());
+  spawned_.clear();
+  removed_.clear();
+  scored_.clear();
+  physics::World& world = *simulator_->exact_world();
+  physics::Subdomain::show_instant(world, until);
+  for (const ShownBody& body : bodies) {
+    assert(is_there(body.id));
+    physics::Subdomain::show(world, body.id.index, body.state);
+  }
+  for (const InputEvent& key : keys) {
+    assert(key.player < player_count() && seats_[key.player].entity);
+    seats_[key.player].controller.press(key.key, key.kind == InputKind::key_down);
+  }
+  score_ = score.score;
+  is_over_ = score.is_over;
+  face_offs_ = score.face_offs;
 }
 
 /// The earliest instant at which more than motion happens, at most `until`.

@@ -13,6 +13,7 @@
 #include "game/control/bat_controller.h"
 #include "game/model/scene.h"
 #include "game/model/state_hash.h"
+#include "game/physics/body_state.h"
 #include "game/physics/simulator_choice.h"
 #include "game/physics/world.h"
 
@@ -74,6 +75,30 @@ class Game {
   /// `budget` is exceeded, which it must not have been before (asserted): then it answers false.
   /// Going on, with or without a budget, comes to the same bits as if it had not stopped.
   bool advance(double until, physics::EventBudget& budget);
+  /// A body of another simulation of the scene, in its state there.
+  struct ShownBody {
+    EntityId id;
+    physics::BodyState state;
+  };
+  /// The goals of another simulation of the scene, and the pucks that are to come back, by time,
+  /// then puck.
+  struct ShownScore {
+    struct FaceOff {
+      double time = 0.0;  ///< s
+      EntityId puck;
+      Team conceding = Team::none;
+    };
+    Score score;
+    bool is_over = false;
+    std::vector<FaceOff> face_offs;
+  };
+  /// Shows what another simulation of the scene has come to at `until` [s], not before now(), on
+  /// the exact engine (both asserted): these bodies have changed there, these keys of bats in play
+  /// have taken effect, and that is the score. Nothing is simulated, no goals are listed, and a
+  /// game that was shown once is never advanced.
+  void show(double until, std::span<const ShownBody> bodies, std::span<const InputEvent> keys,
+            const ShownScore& score);
+
   /// Whether the last `advance` ended so, perhaps with events of now() still to come.
   bool is_cut_short() const { return is_cut_short_; }
 
@@ -155,11 +180,7 @@ class Game {
     /// A heap's order: the input to apply first is the greatest.
     static bool is_later(const QueuedInput& a, const QueuedInput& b) { return a.turn() > b.turn(); }
   };
-  struct FaceOff {
-    double time;
-    EntityId puck;
-    Team conceding;
-  };
+  using FaceOff = ShownScore::FaceOff;
 
   void spawn_bat(std::uint32_t player, const Vector2& position, const Vector2& velocity);
   bool play(double until, physics::EventBudget* budget);

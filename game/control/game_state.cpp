@@ -64,18 +64,13 @@ bool exchange_controller(Stream& stream, BatController& controller, double thrus
 bool exchange_world(physics::SnapshotWriter& writer,
                     std::unique_ptr<physics::Simulator>& simulator) {
   std::vector<std::uint8_t> world = simulator->exact_world()->save();
-  if (!writer.size(world)) return false;
-  for (std::uint8_t& byte : world) writer.number(byte);
-  return true;
+  return writer.number_list(world);
 }
 
-bool exchange_world(physics::SnapshotReader& reader,
-                    std::unique_ptr<physics::Simulator>& simulator) {
+bool exchange_world(ByteReader& reader, std::unique_ptr<physics::Simulator>& simulator) {
   std::vector<std::uint8_t> bytes;
-  if (!reader.size(bytes)) return false;
-  for (std::uint8_t& byte : bytes)
-    if (!reader.number(byte)) return false;
-  std::optional<physics::World> world = physics::World::restore(bytes);
+  if (!reader.number_list(bytes)) return false;
+  std::optional<physics::World> world = physics::World::restore(bytes, simulator->spec().slabs);
   if (!world) return false;
   simulator = std::make_unique<physics::World>(std::move(*world));
   return true;
@@ -83,7 +78,7 @@ bool exchange_world(physics::SnapshotReader& reader,
 
 }  // namespace
 
-/// Rules and bats are the scene's.
+/// Rules and bats are the scene's, and so is the way in which its world is divided.
 template <class Stream>
 bool GameState::exchange(Stream& stream, Game& game) {
   if (!exchange_world(stream, game.simulator_)) return false;
@@ -153,23 +148,26 @@ std::vector<std::uint8_t> GameState::save(const Game& game, const Scene& scene) 
   assert(game.simulator().exact_world() != nullptr &&
          game.player_count() == scene.bodies.bats.size());
   Game state = game.copy();
-  physics::SnapshotWriter writer;
+  std::vector<std::uint8_t> bytes;
+  physics::SnapshotWriter writer(bytes);
   std::uint64_t kind = magic, of_scene = fingerprint(scene);
   std::uint32_t format = version;
   writer.numbers(kind, format, of_scene);
   [[maybe_unused]] const bool is_written = exchange(writer, state);
   assert(is_written);
-  return writer.finish();
+  physics::add_checksum(bytes);
+  return bytes;
 }
 
 GameState::Restored GameState::restore(std::span<const std::uint8_t> bytes, const Scene& scene) {
   const auto refuse = [](const std::string& error) { return Restored{std::nullopt, error}; };
-  physics::SnapshotReader reader(bytes);
   std::uint64_t kind = 0, of_scene = 0;
   std::uint32_t format = 0;
-  if (!physics::SnapshotReader(bytes).number(kind) || kind != magic)
+  if (!ByteReader(std::as_bytes(bytes)).number(kind) || kind != magic)
     return refuse("is no saved game");
-  if (!reader.is_intact()) return refuse("is damaged: a saved game whose checksum does not fit");
+  const auto content = physics::without_checksum(bytes);
+  if (!content) return refuse("is damaged: a saved game whose checksum does not fit");
+  ByteReader reader(*content);
   if (!reader.numbers(kind, format, of_scene))
     return refuse("is damaged: a saved game without a header");
   if (format != version)

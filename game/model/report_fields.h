@@ -63,11 +63,20 @@ inline constexpr AmountField late_sends_fraction{"late_sends_fraction"}, cpu_sha
 inline constexpr TextField schedule_trouble{"schedule_trouble"};
 inline constexpr AmountsField bytes_received_by_bot{"bytes_received_by_bot"};
 
+// Fields of a node: what it sent each of them, by number; and of all nodes together, with headers.
+inline constexpr AmountsField node_bytes_sent{"node_bytes_sent"},
+    node_segments_sent{"node_segments_sent"},
+    node_acknowledgements_sent{"node_acknowledgements_sent"},
+    node_kernel_segments_sent{"node_kernel_segments_sent"};
+inline constexpr AmountField between_nodes_bytes{"between_nodes_bytes"};
+
 // Fields of peers together; the bytes are in the order of game::Traffic.
-inline constexpr std::array<AmountField, 6> traffic_bytes{
+inline constexpr std::array<AmountField, 7> traffic_bytes{
     AmountField{"halo_bytes"},     AmountField{"claims_bytes"},  AmountField{"agreement_bytes"},
-    AmountField{"interest_bytes"}, AmountField{"updates_bytes"}, AmountField{"keys_bytes"}};
+    AmountField{"interest_bytes"}, AmountField{"updates_bytes"}, AmountField{"keys_bytes"},
+    AmountField{"standby_bytes"}};
 inline constexpr AmountField busiest_node_bytes{"busiest_node_bytes"},
+    busiest_link_bytes{"busiest_link_bytes"},  // with headers and acknowledgements, both ways
     busiest_node_events{"busiest_node_events"};
 
 // Fields of one peer's process.

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "game/peer/peer.h"
+#include "game/peer/protocol.h"
 
 namespace rink::peer {
 
@@ -15,8 +15,9 @@ namespace rink::peer {
 class Assembly {
  public:
   /// Divides `whole`, which is at its start (time 0, before any event); `window` [s] is the length
-  /// of every window.
-  Assembly(const physics::World& whole, const Division& division, double halo, double window);
+  /// of every window. `keeps_to_neighbours`: as of Halos.
+  Assembly(const physics::World& whole, const Division& division, double halo, double window,
+           bool keeps_to_neighbours = true);
 
   /// Before the first window: when keys change.
   void press(const Key& key);
@@ -41,9 +42,16 @@ class Assembly {
   /// The first accusation of any peer; empty if there is none.
   std::string accusation() const;
 
+  /// What all peers have sent so far, verdicts left out.
+  struct Sent {
+    std::uint64_t messages = 0, bytes = 0;
+  };
+  const Sent& sent() const { return sent_; }
+
  private:
   template <class Make>
-  void exchange_all(Make&& make);
+  void exchange(Addressees (*addressees_of)(const Peer&), Make&& make);
+  void exchange_verdicts();
   void note_owners();
 
   std::deque<Peer> peers_;
@@ -53,6 +61,7 @@ class Assembly {
   std::uint64_t count_ = 0;
   std::uint32_t misowned_ = 0;
   bool has_begun_ = false;
+  Sent sent_;
 };
 
 }  // namespace rink::peer

@@ -1,11 +1,13 @@
 // Writes, reads and measures messages.
 #include "game/peer/messages.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
+#include <tuple>
 
 #include "game/peer/message_bytes.h"
-#include "game/physics/snapshot_stream.h"
 
 namespace rink::peer {
 
@@ -13,44 +15,30 @@ namespace {
 
 /// The checksum of messages of every window, most of which are shorter than a longer checksum would
 /// be.
-constexpr int short_checksum = 4;
+constexpr std::size_t short_checksum = 4;
 
-/// Counts bytes.
-class Measure : public physics::SnapshotStream<Measure> {
+/// The bytes of a state, without memory of their own; no number takes more room as bytes.
+class StateBytes {
  public:
-  bool word(std::uint64_t&, int byte_count) {
-    return byte_count_ += static_cast<std::size_t>(byte_count), true;
+  std::size_t size() const { return size_; }
+  std::uint8_t* data() { return bytes_.data(); }
+  void resize(std::size_t size) {
+    assert(size <= bytes_.size());
+    size_ = size;
   }
-  static std::uint64_t count_max() { return 0xffffffff; }
-  std::size_t byte_count() const { return byte_count_; }
+  bool operator==(const StateBytes&) const = default;
 
  private:
-  std::size_t byte_count_ = 0;
-};
-
-/// Writes words into memory that is large enough.
-class Scribe : public physics::SnapshotStream<Scribe> {
- public:
-  explicit Scribe(std::uint8_t* to) : begin_(to), to_(to) {}
-  std::size_t written() const { return static_cast<std::size_t>(to_ - begin_); }
-  bool word(std::uint64_t& value, int byte_count) {
-    for (int byte = 0; byte < byte_count; ++byte)
-      to_[byte] = static_cast<std::uint8_t>(value >> (8 * byte));
-    return to_ += byte_count, true;
-  }
-  static std::uint64_t count_max() { return 0xffffffff; }
-
- private:
-  const std::uint8_t* begin_;
-  std::uint8_t* to_;
+  std::array<std::uint8_t, sizeof(BodyState)> bytes_{};
+  std::size_t size_ = 0;
 };
 
 template <class Message>
 std::size_t size_of(Message& message) {
-  Measure measure;
-  [[maybe_unused]] const bool is_sound = exchange(measure, message);
+  ByteMeasurer measurer;
+  [[maybe_unused]] const bool is_sound = exchange(measurer, message);
   assert(is_sound && "what we say, others must be able to take");
-  return measure.byte_count() + short_checksum;
+  return measurer.size() + short_checksum;
 }
 
 }  // namespace
@@ -75,12 +63,21 @@ std::size_t measured(Verdict& message) { return size_of(message); }
 std::vector<std::uint8_t> bytes_of(BodyState state) { return bytes_from(state); }
 
 bool are_same(BodyState a, BodyState b) {
-  std::array<std::uint8_t, sizeof(BodyState)> bytes_a{},
-      bytes_b{};  // no number takes more room as bytes
-  Scribe scribe_a(bytes_a.data()), scribe_b(bytes_b.data());
-  exchange(scribe_a, a), exchange(scribe_b, b);
-  assert(scribe_a.written() == scribe_b.written() && scribe_a.written() <= bytes_a.size());
+  StateBytes bytes_a, bytes_b;
+  ByteWriter writer_a(bytes_a), writer_b(bytes_b);
+  exchange(writer_a, a), exchange(writer_b, b);
   return bytes_a == bytes_b;
+}
+
+bool are_same(const std::vector<RestContact>& a, const std::vector<RestContact>& b) {
+  const auto parts = [](const RestContact& rest) {
+    return std::tuple(rest.low, rest.high, rest.axis, std::bit_cast<std::uint64_t>(rest.pull_time),
+                      std::bit_cast<std::uint64_t>(rest.force),
+                      std::bit_cast<std::uint64_t>(rest.turn_time),
+                      std::bit_cast<std::uint64_t>(rest.age.time), rest.age.follows_keys,
+                      rest.age.lower, rest.age.higher, rest.age.rank);
+  };
+  return std::ranges::equal(a, b, {}, parts, parts);
 }
 
 }  // namespace rink::peer

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -13,9 +11,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "game/peer/box.h"
+#include "game/peer/verdict_parts.h"
 #include "game/physics/subdomain.h"
-#include "im/basics/varint.h"
 
 namespace rink::peer {
 
@@ -57,12 +54,12 @@ struct Observation {
 /// The changed state of a body that had only free impacts: the rest of its state is as at the
 /// window's start.
 struct FreeFlightState {
-  std::uint32_t number = 0;
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   double time = 0.0;                               ///< of the last impact [s]
+  std::uint32_t number = 0;
 
   static FreeFlightState of(std::uint32_t number, const physics::Flight& f) {
-    return {number, {f.x, f.y}, {f.vx, f.vy}, f.time};
+    return {{f.x, f.y}, {f.vx, f.vy}, f.time, number};
   }
   bool is_as(const physics::Flight& f) const {
     return position == Vector2(f.x, f.y) && velocity == Vector2(f.vx, f.vy) && time == f.time;
@@ -148,37 +145,35 @@ struct Verdict {
   bool accepts = false;
   float halo = 0.0f;  ///< m: of the next window, or, if it does not accept, with which it will
                       ///< repeat this one
-  std::uint64_t at_once_max = 0;   ///< the most events at one instant
-  bool had_solver_failed = false;  ///< simultaneous impacts that have no solution
-  std::uint64_t events = 0;        ///< with a body of the sender's own, in this run
+  std::uint64_t at_once_max = 0;  ///< the most events at one instant
+  std::uint64_t events = 0;       ///< with a body of the sender's own, in this run
   bool leaves = false;  ///< the sender wants to hand over all its bodies when the window is final
   /// For each event of its run, the one of 256 equal parts of the window in which it came, so that
   /// events of many peers are not taken for simultaneous; empty if there are more than
   /// `listed_max`, or so few peers that it does not matter.
   static constexpr std::size_t listed_max = 64;
   std::vector<std::uint8_t> listed{};
+  /// Of its run, by time; and what it was asked about the run by the verdicts before.
+  static constexpr std::size_t critical_max = 1024;
+  std::vector<CriticalInstant> critical{};
+  std::vector<InstantReport> reports{};
+  bool is_about_instants() const { return !critical.empty() || !reports.empty(); }
   std::vector<Goal> goals{};  ///< in this run
   Admission admission{};
-};
-
-/// A whole number in as few bytes as it needs (im/basics/varint.h). A reader takes no longer form
-/// of it, for a message has one form of bytes.
-template <class Stream, class Number>
-bool exchange_short(Stream& stream, Number& number) {
-  std::array<std::byte, varint_size_max> bytes{};
-  put_varint(bytes.data(), number);
-  std::size_t size = 0;
-  for (std::uint64_t byte = 0x80; byte >= 0x80 && size < bytes.size(); ++size) {
-    byte = static_cast<std::uint64_t>(bytes[size]);
-    if (!stream.word(byte, 1)) return false;
-    bytes[size] = static_cast<std::byte>(byte);
+  /// To those that are no neighbours: how far own bodies reach from their places or beyond the own
+  /// halo at the run's end, with those that touch them [m], or 0 if no farther than usual; peers
+  /// that receive a handover all the same, for their players look at own bats; and keys of bats
+  /// that others own.
+  float reach = 0.0f;
+  std::vector<std::uint32_t> watchers{};
+  std::vector<Press> presses{};
+  /// Where the sender looks beyond its halo, in the same windows.
+  static constexpr std::size_t annexes_max = 64;
+  std::vector<Annex> annexes{};
+  bool is_for_strangers() const {
+    return reach > 0.0f || !watchers.empty() || !presses.empty() || !annexes.empty();
   }
-  std::uint64_t whole = 0;
-  if (get_varint(std::span(bytes).first(size), whole) == 0) return false;
-  number = static_cast<Number>(whole);
-  const bool has_64_bits = size < bytes.size() || bytes.back() <= std::byte{1};
-  return number == whole && size == varint_size(whole) && has_64_bits;
-}
+};
 
 /// The first byte of the messages of every window: it marks which of the mostly absent parts
 /// follow. Its highest bit is always set, as in no other message that may come instead (Loss,
@@ -192,7 +187,7 @@ class Head {
   }
   template <class Stream>
   bool exchange(Stream& stream) {
-    return stream.word(bits_, 1) && bits_ >> count_ == 0x80u >> count_;
+    return stream.part(bits_, 1) && bits_ >> count_ == 0x80u >> count_;
   }
   bool has(int part) const {
     assert(part >= 0 && part < count_);
@@ -260,18 +255,9 @@ bool exchange(Stream& stream, Claims::Body& body) {
 }
 
 template <class Stream>
-bool exchange_single(Stream& stream, float& value) {
-  auto bits = std::bit_cast<std::uint32_t>(value);
-  if (!stream.number(bits)) return false;
-  value = std::bit_cast<float>(bits);
-  return true;
-}
-
-template <class Stream>
 bool exchange(Stream& stream, ClaimedFlight& flight) {
-  return stream.numbers(flight.begin, flight.state) && exchange_single(stream, flight.low_x) &&
-         exchange_single(stream, flight.low_y) && exchange_single(stream, flight.high_x) &&
-         exchange_single(stream, flight.high_y);
+  return stream.numbers(flight.begin, flight.state, flight.low_x, flight.low_y, flight.high_x,
+                        flight.high_y);
 }
 
 template <class Stream, class Item>
@@ -282,17 +268,20 @@ bool exchange_list(Stream& stream, std::vector<Item>& list) {
   return true;
 }
 
-/// A list that is marked as present, which then is not empty.
 template <class Stream, class Item>
-bool exchange_part(Stream& stream, bool is_there, std::vector<Item>& list) {
-  std::uint64_t count = list.size();
-  if (!is_there) return list.clear(), true;
-  if (!exchange_short(stream, count) || count == 0 || count > stream.count_max()) return false;
-  list.resize(count);
+bool exchange_short_list(Stream& stream, std::vector<Item>& list) {
+  if (!stream.short_size(list)) return false;
   return std::all_of(list.begin(), list.end(), [&](Item& item) {
     if constexpr (std::is_integral_v<Item>) return stream.number(item);
     else return exchange(stream, item);
   });
+}
+
+/// A list that is marked as present, which then is not empty.
+template <class Stream, class Item>
+bool exchange_part(Stream& stream, bool is_there, std::vector<Item>& list) {
+  if (!is_there) return list.clear(), true;
+  return exchange_short_list(stream, list) && !list.empty();
 }
 
 template <class Stream>
@@ -307,7 +296,7 @@ template <class Stream>
 bool exchange(Stream& stream, Handover& message) {
   Head head({!message.bodies.empty(), !message.free_flights.empty(), !message.rest_contacts.empty(),
              !message.keys.empty(), !message.observations.empty()});
-  return head.exchange(stream) && exchange_short(stream, message.window) &&
+  return head.exchange(stream) && stream.varint(message.window) &&
          exchange_part(stream, head.has(0), message.bodies) &&
          exchange_part(stream, head.has(1), message.free_flights) &&
          exchange_part(stream, head.has(2), message.rest_contacts) &&
@@ -318,9 +307,8 @@ bool exchange(Stream& stream, Handover& message) {
 template <class Stream>
 bool exchange(Stream& stream, Claims& message) {
   Head head({!message.bodies.empty(), !message.flights.empty(), !message.presses.empty()});
-  if (!head.exchange(stream) || !exchange_short(stream, message.window) ||
-      !exchange_short(stream, message.known_count) ||
-      !exchange_part(stream, head.has(0), message.bodies) ||
+  if (!head.exchange(stream) || !stream.varint(message.window) ||
+      !stream.varint(message.known_count) || !exchange_part(stream, head.has(0), message.bodies) ||
       !exchange_part(stream, head.has(1), message.flights) ||
       !exchange_part(stream, head.has(2), message.presses))
     return false;
@@ -340,43 +328,51 @@ bool exchange(Stream& stream, Newcomer& newcomer) {
   const bool is_good = stream.numbers(newcomer.token, newcomer.bat_count, newcomer.puck_count,
                                       newcomer.hand_count) &&
                        newcomer.hand_count <= newcomer.bat_count;
-  return is_good && stream.size(newcomer.place) && newcomer.place.size() <= Newcomer::place_max &&
-         std::all_of(newcomer.place.begin(), newcomer.place.end(),
-                     [&](std::uint8_t& byte) { return stream.number(byte); });
-}
-
-template <class Stream>
-bool exchange_numbers(Stream& stream, std::vector<std::uint32_t>& peers) {
-  return stream.size(peers) && std::all_of(peers.begin(), peers.end(), [&](std::uint32_t& peer) {
-           return stream.number(peer);
-         });
+  return is_good && stream.number_list(newcomer.place) &&
+         newcomer.place.size() <= Newcomer::place_max;
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Admission& admission) {
   return exchange_list(stream, admission.asking) &&
          admission.asking.size() <= Admission::asking_max &&
-         exchange_numbers(stream, admission.reached) &&
-         exchange_numbers(stream, admission.withdrawn);
+         stream.number_list(admission.reached) && stream.number_list(admission.withdrawn);
+}
+
+template <class Stream>
+bool exchange_instants(Stream& stream, bool are_there, Verdict& message) {
+  if (!are_there) return message.critical.clear(), message.reports.clear(), true;
+  return exchange_short_list(stream, message.critical) &&
+         exchange_short_list(stream, message.reports) && message.is_about_instants() &&
+         message.critical.size() <= Verdict::critical_max;
 }
 
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message) {
-  Head head({message.accepts, message.had_solver_failed, message.leaves, !message.listed.empty(),
-             !message.goals.empty(), !message.admission.is_empty()});
-  if (!head.exchange(stream) || !exchange_short(stream, message.window) ||
-      !exchange_single(stream, message.halo) || !(message.halo >= 0.0f))
+  Head head({message.accepts, message.is_about_instants(), message.leaves, !message.listed.empty(),
+             !message.goals.empty(), !message.admission.is_empty(), message.is_for_strangers()});
+  if (!head.exchange(stream) || !stream.varint(message.window) || !stream.number(message.halo) ||
+      !(message.halo >= 0.0f))
     return false;
-  message.accepts = head.has(0), message.had_solver_failed = head.has(1),
-  message.leaves = head.has(2);
-  if (!exchange_short(stream, message.at_once_max) || !exchange_short(stream, message.events))
+  message.accepts = head.has(0), message.leaves = head.has(2);
+  if (!stream.varint(message.at_once_max) || !stream.varint(message.events) ||
+      !exchange_instants(stream, head.has(1), message))
     return false;
   if (!exchange_part(stream, head.has(3), message.listed) ||
       message.listed.size() > Verdict::listed_max ||
       !exchange_part(stream, head.has(4), message.goals))
     return false;
-  if (!head.has(5)) return message.admission = {}, true;
-  return exchange(stream, message.admission) && !message.admission.is_empty();
+  if (!head.has(5)) message.admission = {};
+  else if (!exchange(stream, message.admission) || message.admission.is_empty()) return false;
+  if (!head.has(6)) {
+    message.reach = 0.0f, message.watchers = {}, message.presses = {}, message.annexes = {};
+    return true;
+  }
+  return stream.number(message.reach) && message.reach >= 0.0f &&
+         exchange_short_list(stream, message.watchers) &&
+         exchange_short_list(stream, message.presses) &&
+         exchange_short_list(stream, message.annexes) &&
+         message.annexes.size() <= Verdict::annexes_max && message.is_for_strangers();
 }
 
 /// With a checksum of four bytes at the end.
@@ -395,5 +391,6 @@ std::size_t measured(Verdict& message);
 /// The bytes of a state, by which states are compared.
 std::vector<std::uint8_t> bytes_of(BodyState state);
 bool are_same(BodyState a, BodyState b);
+bool are_same(const std::vector<RestContact>& a, const std::vector<RestContact>& b);
 
 }  // namespace rink::peer

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <string>
 
 #include "im/basics/checked.h"
 
@@ -25,9 +26,11 @@ Peer::Peer(const physics::WorldSpec& spec, const Division& division, PeerNumber 
       homes_(share_, halos_),
       trace_(share_, homes_),
       check_(share_, halos_, homes_, trace_, accusation_),
+      annexes_(share_, halos_, check_),
       verdicts_(halos_, spec.field.length + spec.field.width),
       players_(share_, halos_, accusation_),
-      handovers_(share_, halos_, keys_, accusation_) {}
+      handovers_(share_, halos_, keys_, accusation_),
+      part_log_(share_, keys_) {}
 
 void Peer::consider(std::uint32_t body, const BodyState& state) {
   assert(body < share_.roles().body_count() && !share_.subdomain().is_there(body));
@@ -78,11 +81,29 @@ void Peer::receive(PeerNumber from, Claims claims) {
   if (is_sound(from, claims, window_.end)) check_.receive(from, std::move(claims));
 }
 
+void Peer::receive(PeerNumber from, const Press& press) {
+  if (!is_sound(from, press)) return;
+  players_.receive_early(from, press);
+  const bool is_prepared = now() == window_.start;  // and not played yet
+  if (is_prepared) players_.stamp_unseen(window_.start, keys_);
+}
+
 void Peer::receive(PeerNumber from, const Verdict& verdict) {
+  if (verdict.window != window_.number)
+    accusation_.report(from, "judges window " + std::to_string(verdict.window) + " instead of " +
+                                 std::to_string(window_.number));
+  if (const std::size_t due = verdicts_.asked().size(); verdict.reports.size() != due)
+    accusation_.report(from, "reports on " + std::to_string(verdict.reports.size()) +
+                                 " instants instead of " + std::to_string(due));
   if (is_sound(from, verdict)) verdicts_.receive(from, verdict);
 }
 
 void Peer::receive(PeerNumber from, Handover handover) {
+  // Who does not repeat the window is sent an empty one.
+  const bool is_expected = told_ > window_.start || verdicts_.repeats(number());
+  if (const std::uint32_t due = is_expected ? window_.number : 0; handover.window != due)
+    accusation_.report(from, "hands over for window " + std::to_string(handover.window) +
+                                 " instead of " + std::to_string(due));
   if (is_sound(from, handover, told_)) handovers_.receive(from, std::move(handover));
 }
 
@@ -98,13 +119,7 @@ void Peer::divide(const Division& division) {
 void Peer::play() {
   homes_.restore_rooms();
   share_.play(keys_.due(), window_.end);
-  survey();
-}
-
-/// Collects all that the rule needs of the run.
-void Peer::survey() {
-  homes_.find_edge();
-  trace_.follow(window_);
+  homes_.find_edge(), trace_.follow(window_);
 }
 
 Claims Peer::claims_for(PeerNumber peer) {
@@ -116,37 +131,55 @@ Claims Peer::claims_for(PeerNumber peer) {
 
 const Verdict& Peer::judge() {
   const bool is_possible = check_.are_possible(window_);
-  for (PeerNumber from = 0; from < halos_.peer_count() && is_possible; ++from)
-    players_.stamp(from, from == number() ? players_.take_presses(from) : check_.take_presses(from),
-                   window_.end, keys_);
+  players_.stamp_early(window_.end, keys_);
+  if (is_possible) {
+    players_.stamp(number(), players_.take_presses(number()), window_.end, keys_);
+    for (const PeerNumber from : halos_.neighbours())
+      players_.stamp(from, check_.take_presses(from), window_.end, keys_);
+  }
   const bool agrees = is_possible && check_.agree(window_);
   if (verdicts_.is_stuck()) {
     if (is_possible && !agrees) check_.blame_doubted();
     verdicts_.blame_refusing(window_, accusation_);
   }
   Verdict own = verdict_on_run(share_, halos_, window_);
+  own.reports = reports_on(share_, verdicts_.asked());
   own.events = trace_.own_events();
   own.leaves = leaves_;
   own.admission = admission_;
+  if (halos_.are_kept_to_neighbours()) own.reach = trace_.reach_for_strangers(halos_);
+  own.watchers = players_.strangers_due(window_);
+  own.presses = players_.take_strange_presses();
+  const double needed = trace_.needed_halo(halos_.own_zones());
+  const bool shows_cause =
+      annexes_.announce(agrees && needed <= halos_.own(), window_, verdicts_, own);
   counters_.verdict_bytes += measured(own);  // what is decided now has a fixed length
-  return verdicts_.decide(std::move(own), agrees, trace_.needed_halo(halos_.own_zones()));
+  return verdicts_.decide(std::move(own), agrees, needed, shows_cause);
 }
 
 /// All peers decide equally, since all have received the same. A body that is no longer at home may
 /// have had impacts without entries, so its run is repeated.
 Outcome Peer::conclude() {
   const Outcome outcome = verdicts_.conclude();
+  halos_.end_run(verdicts_.reach());
+  players_.stamp_early(window_.end, keys_);
+  for (PeerNumber from = 0; from < halos_.peer_count(); ++from) {
+    players_.stamp(from, verdicts_.of(from).presses, window_.end, keys_);
+    share_.expect(from, {});
+  }
   told_ = outcome == Outcome::final ? window_.end : window_.start;
-  if (outcome == Outcome::final) return outcome;
-  const bool repeats = verdicts_.repeats(number()), is_fit = homes_.are_fit();
+  const bool is_safe = homes_.are_safe();
+  if (outcome == Outcome::final && !is_safe) homes_.reopen();
+  if (outcome == Outcome::final || !verdicts_.asked().empty()) return outcome;
+  const bool repeats = verdicts_.repeats(number());
   counters_.repeats += repeats;
-  if (!is_fit) homes_.choose(window_);
-  if (!repeats && is_fit) survey();
-  if (!repeats && !is_fit) share_.undo(), play();
+  if (!is_safe) homes_.choose(window_);
+  if (!repeats && is_safe) homes_.find_edge(), trace_.follow(window_);
+  if (!repeats && !is_safe) share_.undo(), play();
   return outcome;
 }
 
-Handover Peer::handover_for_repeat(PeerNumber peer) {
+Handover Peer::handover_for(PeerNumber peer) {
   Handover message = handovers_.for_repeat(peer, window_);
   counters_.arrival_bytes += measured(message);
   return message;
@@ -175,6 +208,7 @@ void Peer::replay() {
   }
   share_.set_rest_contacts(std::move(rest_contacts));
   share_.begin_window();
+  part_log_.note_repeat();
   play();
 }
 
@@ -182,6 +216,7 @@ void Peer::commit(double until) {
   players_.observe(window_);
   keys_.note_log(share_.roles());
   changes_.note_window(share_);
+  part_log_.note_window(trace_.own_events() + trace_.ghost_events());
   handovers_.complete(check_);
   check_.correct(share_);
   std::vector<RestContact> rest_contacts = share_.own_rest_contacts();
@@ -200,11 +235,13 @@ void Peer::commit(double until) {
   ++counters_.windows;
   counters_.own_events += trace_.own_events(), counters_.ghost_events += trace_.ghost_events();
   ++window_.number, window_.start = now();
+  halos_.begin_window();
   verdicts_.begin_window();
   homes_.begin_window();
   settle(std::move(candidates));
   window_.end = until;
   keys_.begin_window(until, share_.roles());
+  players_.stamp_unseen(window_.start, keys_);
   if (!homes_.is_watch_fit(window_)) homes_.choose_watched(window_);
   if constexpr (checks_whole_structures) check();
 }
@@ -228,6 +265,7 @@ void Peer::end_at(double until) {
 }
 
 void Peer::put_back(const Handover::Body& scored, const Vector2& place) {
+  halos_.make_way(scored.state.extent().maxCoeff());
   const Settlement settled = share_.put_back(scored, place, halos_);
   changes_.note(settled);
   homes_.settle(settled, window_);

@@ -12,7 +12,9 @@
 
 #include "game/peer/division.h"
 #include "game/peer/messages.h"
+#include "game/peer/standby/part_log.h"
 #include "game/peer/validation.h"
+#include "game/peer/window/annexes.h"
 #include "game/peer/window/claim_check.h"
 #include "game/peer/window/claim_trace.h"
 #include "game/peer/window/handovers.h"
@@ -39,10 +41,10 @@ struct PeerCounters {
 };
 
 /// The protocol in its order (docs/peer-to-peer.md). All call `play`; then each makes claims for
-/// each other, receives those of all others, judges, and receives all verdicts; `conclude` then
-/// returns the same to all. `final`: each makes a handover for each other, receives theirs, and
-/// commits. `repeat`: each makes a handover for those that repeat, these receive them and call
-/// `replay`, and all continue with claims. Knows no network and no clock.
+/// neighbour, receives those of its neighbours, judges, and receives all verdicts; `conclude` then
+/// returns the same to all. `final`: each makes a handover for each neighbour and watcher, receives
+/// theirs, and commits. `repeat`: each makes a handover for those that repeat, these receive them
+/// and call `replay`, and all continue with claims. Knows no network and no clock.
 ///
 /// Each subject has a class of its own; what is here is the order in which they act.
 class Peer {
@@ -76,6 +78,8 @@ class Peer {
   /// The change of the own part since the last window, or all of it if `is_whole`; its step is left
   /// out.
   PartChange change(bool is_whole) const { return changes_.change(share_, keys_, is_whole); }
+  /// What a standby must know of the own part.
+  PartLog& part_log() { return part_log_; }
   /// After a commit: puts a scored puck, with its owner's state, back in play at `place`, which is
   /// free at all peers.
   void put_back(const Handover::Body& scored, const Vector2& place);
@@ -96,14 +100,18 @@ class Peer {
   /// Checks all messages by `validator` from now on. An invalid one is dropped, and its sender is
   /// reported.
   void validate_by(Validator validator) { validator_ = std::move(validator); }
+  /// As Halos::keep_to_neighbours: claims and handovers go to neighbours, and come from them.
+  void keep_to_neighbours(bool is_late) { halos_.keep_to_neighbours(is_late); }
   void receive(PeerNumber from, Claims claims);
+  /// As LivePlayers::receive_early; also of an own player, and at any time.
+  void receive(PeerNumber from, const Press& press);
   const Verdict& judge();
   void receive(PeerNumber from, const Verdict& verdict);
   Outcome conclude();
   const WindowVerdicts& verdicts() const { return verdicts_; }
 
-  Handover handover_for_repeat(PeerNumber peer);
-  /// `until` [s]: the end of the next window.
+  /// For a repetition; or for the next window, which ends at `until` [s].
+  Handover handover_for(PeerNumber peer);
   Handover handover_for(PeerNumber peer, double until);
   void receive(PeerNumber from, Handover handover);
   void replay();
@@ -120,8 +128,8 @@ class Peer {
   /// A place where the body certainly was: at the end of the judged window, or at its start if it
   /// is a ghost whose owner claims another path. After a commit, its present place.
   Vector2 known_place(std::uint32_t body) const;
-  const physics::World& world() const { return share_.world(); }
-  double halo() const { return halos_.own(); }
+  const physics::PartWorld& world() const { return share_.world(); }
+  const Halos& halos() const { return halos_; }
   const PeerCounters& counters() const { return counters_; }
   /// The reason why another peer's message cannot be true, naming the peer.
   const Accusation& accusation() const { return accusation_; }
@@ -133,7 +141,6 @@ class Peer {
  private:
   template <class Message, class... Instants>
   bool is_sound(PeerNumber from, const Message& message, Instants... instants);
-  void survey();
   void settle(std::vector<std::uint32_t> candidates);
 
   /// Bodies and contacts that were taken, until the first window begins.
@@ -150,11 +157,13 @@ class Peer {
   ClaimTrace trace_;
   Accusation accusation_;
   ClaimCheck check_;
+  Annexes annexes_;
   WindowVerdicts verdicts_;
   TimedKeys keys_;
   LivePlayers players_;
   Handovers handovers_;
   PartChanges changes_;
+  PartLog part_log_;
   std::optional<Validator> validator_;
   double told_ = 0.0;  ///< of the states that are handed over next [s]
   Entered entered_;

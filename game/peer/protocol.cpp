@@ -1,6 +1,7 @@
 // Runs the steps of peer.h in their order, message by message.
 #include "game/peer/protocol.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "game/physics/body_hash.h"
@@ -17,17 +18,14 @@ void receive(Peer& peer, PeerNumber from, std::span<const std::uint8_t> bytes) {
   peer.receive(from, std::move(message));
 }
 
-/// Sends what `make(to)` makes to each other peer, and receives theirs.
+/// Sends what `make(to)` makes to each addressee, and receives theirs.
 template <class Make>
-void exchange_with_all(Peer& peer, PeerNumber peer_count, Mail& mail, Make&& make,
-                       const std::function<void()>& meanwhile) {
-  for (PeerNumber to = 0; to < peer_count; ++to)
-    if (to != peer.number()) mail.send(to, written(make(to)));
+void exchange_with(const Addressees& addressees, Peer& peer, Mail& mail, Make&& make,
+                   const std::function<void()>& meanwhile) {
+  for (const PeerNumber to : addressees.to) mail.send(to, written(make(to)));
   if (meanwhile) meanwhile();
-  for (PeerNumber from = 0; from < peer_count; ++from) {
-    if (from == peer.number()) continue;
+  for (const PeerNumber from : addressees.from)
     receive<decltype(make(from))>(peer, from, mail.receive(from));
-  }
   if (peer.accusation().is_made()) throw ProtocolError(peer.accusation().text());
 }
 
@@ -52,16 +50,49 @@ std::vector<std::vector<std::uint8_t>> Mail::share(PeerNumber own, PeerNumber pe
 }
 
 void agree(Peer& peer, PeerNumber peer_count, Mail& mail) {
-  const auto verdicts = mail.share(peer.number(), peer_count, written(peer.verdicts().own()));
+  const std::vector<std::uint8_t> own = written(peer.verdicts().own());
+  const bool is_long = own.size() > Mail::shared_max;
+  const auto verdicts =
+      mail.share(peer.number(), peer_count, is_long ? std::vector<std::uint8_t>() : own);
   assert(verdicts.size() == peer_count && "who carries the mail gives one of each");
+  for (PeerNumber to = 0; to < peer_count && is_long; ++to)
+    if (to != peer.number()) mail.send(to, own);
   for (PeerNumber from = 0; from < peer_count; ++from)
-    if (from != peer.number()) receive<Verdict>(peer, from, verdicts[from]);
+    if (from != peer.number())
+      receive<Verdict>(peer, from, verdicts[from].empty() ? mail.receive(from) : verdicts[from]);
   if (peer.accusation().is_made()) throw ProtocolError(peer.accusation().text());
 }
 
+Addressees claim_addressees(const Peer& peer) {
+  return {peer.halos().neighbours(), peer.halos().neighbours()};
+}
+
+Addressees repeat_addressees(const Peer& peer) {
+  Addressees addressees{peer.halos().neighbours(), {}};
+  std::erase_if(addressees.to, [&](PeerNumber to) { return !peer.verdicts().repeats(to); });
+  if (peer.verdicts().repeats(peer.number())) addressees.from = peer.halos().neighbours();
+  return addressees;
+}
+
+Addressees handover_addressees(const Peer& peer) {
+  const auto watches = [&](PeerNumber watcher, PeerNumber watched) {
+    const std::vector<PeerNumber>& watchers = peer.verdicts().of(watched).watchers;
+    return std::ranges::find(watchers, watcher) != watchers.end();
+  };
+  Addressees addressees;
+  for (PeerNumber other = 0; other < peer.halos().peer_count(); ++other) {
+    if (other == peer.number() || !peer.halos().is_present(other)) continue;
+    const bool is_neighbour = peer.halos().has_neighbour(other);
+    if (is_neighbour || watches(other, peer.number())) addressees.to.push_back(other);
+    if (is_neighbour || watches(peer.number(), other)) addressees.from.push_back(other);
+  }
+  return addressees;
+}
+
 void play_window(Peer& peer, PeerNumber peer_count, Mail& mail, double next) {
-  const auto exchange = [&](auto&& make, const std::function<void()>& meanwhile) {
-    exchange_with_all(peer, peer_count, mail, make, meanwhile);
+  const auto exchange = [&](const Addressees& addressees, auto&& make,
+                            const std::function<void()>& meanwhile) {
+    exchange_with(addressees, peer, mail, make, meanwhile);
   };
   play_steps(peer, next, exchange, [&] { agree(peer, peer_count, mail); }, {});
 }

@@ -1,11 +1,13 @@
 // One peer's side of a simulation over anything that carries bytes.
 #pragma once
 
+#include <cassert>
 #include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/peer/peer.h"
@@ -26,6 +28,13 @@ class Mail {
   /// there will be none; PeerGone for any peer that is gone without `part`, if peers can continue
   /// without each other.
   virtual std::vector<std::uint8_t> receive(PeerNumber from) = 0;
+  /// Waits for the next message of any of these peers, at least one, and returns it with its
+  /// sender's number. This default waits for the first peer of the list alone.
+  virtual std::pair<PeerNumber, std::vector<std::uint8_t>> receive_any(
+      std::span<const PeerNumber> from) {
+    assert(!from.empty());
+    return {from.front(), receive(from.front())};
+  }
   /// The bytes of each of `peer_count` peers, by number, when all call it at the same point of the
   /// protocol with at most `shared_max` bytes: by send and receive, unless the implementation has a
   /// faster way.
@@ -95,9 +104,19 @@ struct WindowHooks {
   std::function<void(Subject)> when_sending{};
 };
 
-/// The steps of a window: `exchange(make, meanwhile)` exchanges what all peers make for each other,
-/// and calls `meanwhile`, if it is not empty, when all is sent; `agree` exchanges verdicts.
-/// `hooks.when_final` may set where the `next` window ends.
+/// Who receives a peer's message of one step, and whose it receives: sorted, without itself. If one
+/// peer sends to another, that one receives from it.
+struct Addressees {
+  std::vector<PeerNumber> to{}, from{};
+};
+/// Of claims; of handovers after `conclude`: for a repetition, or for the next window.
+Addressees claim_addressees(const Peer& peer);
+Addressees repeat_addressees(const Peer& peer);
+Addressees handover_addressees(const Peer& peer);
+
+/// The steps of a window: `exchange(addressees, make, meanwhile)` exchanges what these peers make
+/// for each other, and calls `meanwhile`, if it is not empty, when all is sent; `agree` exchanges
+/// verdicts. `hooks.when_final` may set where the `next` window ends.
 template <class Exchange, class Agree>
 void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agree,
                 const WindowHooks& hooks) {
@@ -108,26 +127,27 @@ void play_steps(Peer& peer, const double& next, Exchange&& exchange, Agree&& agr
   if (hooks.when_played) hooks.when_played();
   for (;;) {
     sending(Subject::claims);
-    exchange([&](PeerNumber to) { return peer.claims_for(to); }, nullptr);
+    exchange(
+        claim_addressees(peer), [&](PeerNumber to) { return peer.claims_for(to); }, nullptr);
     peer.judge();
     sending(Subject::verdict);
     agree();
     sending(Subject::handover);
     if (peer.conclude() == Outcome::final) break;
     exchange(
-        [&](PeerNumber to) {
-          return peer.verdicts().repeats(to) ? peer.handover_for_repeat(to) : Handover{};
-        },
-        nullptr);
+        repeat_addressees(peer), [&](PeerNumber to) { return peer.handover_for(to); }, nullptr);
     if (peer.verdicts().repeats(peer.number())) peer.replay();
   }
   if (hooks.when_final) hooks.when_final();
-  exchange([&](PeerNumber to) { return peer.handover_for(to, next); }, hooks.when_told);
+  exchange(
+      handover_addressees(peer), [&](PeerNumber to) { return peer.handover_for(to, next); },
+      hooks.when_told);
   peer.commit(next);
 }
 
 /// Exchanges the verdicts of all peers, which must all be present: none continues before all have
-/// sent theirs, so a collective can carry them (Mail::share).
+/// sent theirs, so a collective can carry them (Mail::share). One that is too long for that leaves
+/// its place empty and is sent to each.
 void agree(Peer& peer, PeerNumber peer_count, Mail& mail);
 
 /// Plays the window that `begin` or the last call has prepared, and prepares the next, which ends

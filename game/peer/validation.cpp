@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <iterator>
 
 #include "game/peer/session/session_state.h"
 
@@ -15,7 +16,8 @@ namespace {
 constexpr double speed_max = 299'792'458.0;  ///< m/s: nothing in a rink outruns light
 /// Far above the limits of scene files (1e4 m/s^2, 1e4 1/s, 1e9 rad/s), and so low that no window
 /// overflows a double.
-constexpr double acceleration_max = 1e6, drag_max = 1e6, spin_max = 1e12, force_max = 1e18;
+constexpr double acceleration_max = 1e6, spin_max = 1e12, force_max = 1e18;
+constexpr double drag_min = 1e-15;  ///< 1/s: less would take longer than any field is wide
 
 /// s: an event may be so much later than its window by rounding, far more than it ever is. A
 /// contact that should have ended earlier ends when it is checked, so there is no lower bound.
@@ -52,22 +54,49 @@ BodyConstants BodyConstants::of(const BodyState& state) {
           state.kind,          state.material, state.half};
 }
 
-Validator::Validator(const physics::World& world)
-    : puck_drag_(world.spec().puck_drag),
-      glide_max_(physics::Subdomain::glide_max(world)),
-      reach_(2.0 * (world.spec().field.length + world.spec().field.width)),
-      material_count_(world.spec().restitution.material_count()) {
-  for (std::uint32_t body = 0; body < world.body_count(); ++body) {
-    const BodyConstants own = BodyConstants::of(physics::Subdomain::state_in(world, body));
+Validator::Validator(const Start& start)
+    : puck_drag_(start.spec().puck_drag),
+      drag_max_(std::max(puck_drag_, start.spec().bat_drag)),
+      glide_max_(physics::Subdomain::glide_max(start.spec())),
+      reach_(2.0 * (start.spec().field.length + start.spec().field.width)),
+      material_count_(start.spec().restitution.material_count()),
+      body_count_(start.body_count()) {
+  start.visit([this](std::uint32_t body, const physics::World& world, physics::BodyId id) {
+    const BodyState state = physics::Subdomain::state_in(world, id.index);
+    drag_max_ = std::max(drag_max_, state.drag.maxCoeff());
+    const BodyConstants own = BodyConstants::of(state);
+    if (!runs_.empty() && constants_[runs_.back().constants] == own) return;
     const auto known = std::find(constants_.begin(), constants_.end(), own);
-    constants_of_.push_back(static_cast<std::uint32_t>(known - constants_.begin()));
+    runs_.push_back({body, static_cast<std::uint32_t>(known - constants_.begin())});
     if (known == constants_.end()) constants_.push_back(own);
-  }
-  assert(constants_of_.size() == world.body_count() && constants_.size() <= constants_of_.size());
+  });
+  assert(body_count_ == 0 || (!runs_.empty() && runs_.front().first == 0));
+}
+
+const BodyConstants& Validator::constants_of(std::uint32_t number) const {
+  assert(has_body(number));
+  const auto next = std::ranges::upper_bound(runs_, number, {}, &Run::first);
+  return constants_[std::prev(next)->constants];
+}
+
+BodyState Validator::still(std::uint32_t number) const {
+  const BodyConstants& own = constants_of(number);
+  BodyState state;
+  state.flight.radius = own.radius;
+  state.mass = own.mass, state.inverse_mass = own.inverse_mass;
+  state.half_extent = own.half_extent;
+  state.kind = own.kind, state.material = own.material, state.half = own.half;
+  state.drag = Vector2::Constant(puck_drag_);
+  return state;
 }
 
 bool Validator::is_place(const Vector2& place) const {
   return is_number(place) && place.cwiseAbs().maxCoeff() <= reach_;
+}
+
+/// A group that moves as one has the mean of its bodies' drag, by their masses.
+bool Validator::is_drag(double drag) const {
+  return drag == 0.0 || (drag >= drag_min && drag <= drag_max_ * (1.0 + 1e-9));
 }
 
 /// True if the last event is not in the future, and the flight since then has stayed in reach.
@@ -81,14 +110,14 @@ bool Validator::is_on_its_way(const physics::Motion& motion, double now) const {
 
 std::string Validator::fault_of(const Handover::Body& body, double now) const {
   const BodyState& s = body.state;
-  if (!is_body(body.number)) return named("hands over body", body.number, "which does not exist");
-  if (BodyConstants::of(s) != constants_[constants_of_[body.number]])
+  if (!has_body(body.number)) return named("hands over body", body.number, "which does not exist");
+  if (BodyConstants::of(s) != constants_of(body.number))
     return named("hands over body", body.number,
                  "with a radius, mass, material or kind that the scene does not give it");
   const bool is_driven = is_within(s.thrust, acceleration_max) &&
                          is_within(s.acceleration, acceleration_max) &&
-                         is_within(s.slowing, acceleration_max) && s.drag.minCoeff() >= 0.0 &&
-                         is_within(s.drag, drag_max) && is_within(s.spin, spin_max);
+                         is_within(s.slowing, acceleration_max) && is_drag(s.drag.x()) &&
+                         is_drag(s.drag.y()) && is_within(s.spin, spin_max);
   if (!is_driven)
     return named("hands over body", body.number,
                  "with an acceleration, drag or spin that is no number or too large");
@@ -100,7 +129,7 @@ std::string Validator::fault_of(const Handover::Body& body, double now) const {
                           !std::isnan(s.rest_time);
   if (!is_counted)
     return named("hands over body", body.number, "with times that are no numbers or still to come");
-  if (!physics::Subdomain::is_possible(s, static_cast<std::uint32_t>(constants_of_.size())))
+  if (!physics::Subdomain::is_possible(s, body_count_))
     return named("hands over body", body.number, "in a state that does not exist");
   physics::Motion motion = s.motion();
   // A body out of play does not move.
@@ -111,7 +140,7 @@ std::string Validator::fault_of(const Handover::Body& body, double now) const {
 }
 
 std::string Validator::fault_of(const FreeFlightState& free_flights, double now) const {
-  if (!is_body(free_flights.number))
+  if (!has_body(free_flights.number))
     return named("hands over body", free_flights.number, "which does not exist");
   const physics::Motion motion{.time = free_flights.time,
                                .position = free_flights.position,
@@ -124,10 +153,10 @@ std::string Validator::fault_of(const FreeFlightState& free_flights, double now)
 
 std::string Validator::fault_of(const RestContact& rest) const {
   const auto is_partner = [&](physics::Partner p) {
-    return is_body(p) || (p >= physics::partner::field_parts && p <= physics::partner::halfway);
+    return has_body(p) || (p >= physics::partner::field_parts && p <= physics::partner::halfway);
   };
   const auto is_moving = [&](physics::Partner p) {
-    return is_body(p) && !is_of_kind(p, physics::BodyKind::post);
+    return has_body(p) && !is_of_kind(p, physics::BodyKind::post);
   };
   if (!is_partner(rest.low) || !is_partner(rest.high) || rest.low == rest.high)
     return "hands over a rest contact of body " + std::to_string(rest.low) + " with " +
@@ -153,9 +182,16 @@ std::string Validator::fault_of(const Observation& observation) const {
                   std::isfinite(observation.time) && is_place(observation.position) &&
                   is_number(observation.velocity);
   for (const Observation::Puck& puck : observation.pucks)
-    is_sound = is_sound && is_body(puck.number) && is_place(puck.position) &&
+    is_sound = is_sound && has_body(puck.number) && is_place(puck.position) &&
                is_number(puck.velocity) && std::isfinite(puck.radius) && puck.radius >= 0.0;
   return is_sound ? std::string() : named("shows bat", observation.bat, "as it cannot be");
+}
+
+std::string Validator::fault_of(const Press& press) const {
+  if (is_of_kind(press.bat, physics::BodyKind::bat) && is_within(press.thrust, acceleration_max))
+    return {};
+  return named("presses a key of bat", press.bat,
+               "which is none, or with an acceleration that no bat has");
 }
 
 template <class Item, class... Instant>
@@ -179,33 +215,29 @@ std::string Validator::fault_of(const Handover& message, double now) const {
 
 std::string Validator::fault_of(const Claims& message, double end) const {
   for (const Claims::Body& body : message.bodies)
-    if (!is_body(body.number)) return named("claims body", body.number, "which does not exist");
+    if (!has_body(body.number)) return named("claims body", body.number, "which does not exist");
   for (const ClaimedFlight& flight : message.flights)
     if (!(flight.begin >= 0.0 && flight.begin <= end + rounding_margin) ||
         !(flight.low_x <= flight.high_x) || !(flight.low_y <= flight.high_y))
       return "claims a flight through no place or at no time";
-  for (const Press& press : message.presses)
-    if (!is_of_kind(press.bat, physics::BodyKind::bat) ||
-        !is_within(press.thrust, acceleration_max))
-      return named("presses a key of bat", press.bat,
-                   "which is none, or with an acceleration that no bat has");
-  return {};
+  return first_fault(message.presses);
 }
 
 std::string Validator::fault_of(const Verdict& message) const {
   for (const Goal& goal : message.goals)
     if (!is_of_kind(goal.puck, physics::BodyKind::puck))
       return named("claims a goal of puck", goal.puck, "which is none");
-  return {};
+  return first_fault(message.presses);
 }
 
 std::string Validator::fault_of(const PartChange& message, double now) const {
   for (const std::string& fault :
        {first_fault(message.bodies, now), first_fault(message.free_flights, now),
-        first_fault(message.rest_contacts), first_fault(message.keys), first_fault(message.log)})
+        first_fault(message.rest_contacts), first_fault(message.keys),
+        fault_of_log(message.log, now)})
     if (!fault.empty()) return fault;
   for (const std::uint32_t body : message.gone)
-    if (!is_body(body)) return named("gives away body", body, "which does not exist");
+    if (!has_body(body)) return named("gives away body", body, "which does not exist");
   for (const Handover::Body& body : message.bodies)
     if (!has_its_holds(body, message.rest_contacts))
       return named("sends body", body.number, "in a rest contact that it does not send");
@@ -222,7 +254,22 @@ std::string Validator::fault_of(const FaceOffWord& message, double now) const {
                                  : first_fault(message.body, now);
 }
 
-std::string Validator::fault_of(const std::vector<Key>& log) const { return first_fault(log); }
+std::string Validator::fault_of_last(const Handover& message, double now) const {
+  for (const std::string& fault :
+       {first_fault(message.bodies, now), first_fault(message.free_flights, now),
+        fault_of_log(message.keys, now)})
+    if (!fault.empty()) return fault;
+  return {};
+}
+
+std::string Validator::fault_of(const std::vector<Key>& keys) const { return first_fault(keys); }
+
+std::string Validator::fault_of_log(const std::vector<Key>& log, double now) const {
+  for (const Key& key : log)
+    if (!(key.time >= 0.0 && key.time <= now))
+      return named("logs a key of bat", key.bat, "that took effect before the start or not yet");
+  return first_fault(log);
+}
 
 std::string Validator::fault_of(const Loss& message) const {
   for (const std::vector<PeerNumber>* peers : {&message.gone, &message.finished}) {
@@ -231,6 +278,9 @@ std::string Validator::fault_of(const Loss& message) const {
     if (!is_list || (!peers->empty() && peers->back() >= numbers_max))
       return "sends the loss of peers that never were";
   }
+  if (std::ranges::adjacent_find(message.questions, std::ranges::greater_equal(),
+                                 &Question::peer) != message.questions.end())
+    return "asks for peers in no order";
   return {};
 }
 

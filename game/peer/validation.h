@@ -7,8 +7,9 @@
 
 #include "game/peer/messages.h"
 #include "game/peer/session/loss.h"
-#include "game/peer/session/part_replica.h"
+#include "game/peer/session/part_change.h"
 #include "game/peer/session/scoring.h"
+#include "game/peer/start.h"
 
 namespace rink::peer {
 
@@ -29,7 +30,13 @@ struct BodyConstants {
 /// that are possible but false (docs/peer-to-peer.md).
 class Validator {
  public:
-  explicit Validator(const physics::World& world);
+  explicit Validator(const Start& start);
+
+  bool has_body(std::uint32_t number) const { return number < body_count_; }
+  std::uint32_t body_count() const { return body_count_; }
+  /// The body, which must be there, with what the scene gives it and nothing else: it lies still in
+  /// the field's corner.
+  BodyState still(std::uint32_t number) const;
 
   /// The fault of a message, as in "hands over body 7 at no place"; empty if there is none. `now`
   /// [s] is the instant of its states, `end` [s] the end of its window.
@@ -39,7 +46,12 @@ class Validator {
   std::string fault_of(const PartChange& message, double now) const;
   std::string fault_of(const FaceOffWord& message, double now) const;
   std::string fault_of(const Loss& message) const;
-  std::string fault_of(const std::vector<Key>& log) const;
+  std::string fault_of(const std::vector<Key>& keys) const;
+  /// Of keys that took effect until `now` [s].
+  std::string fault_of_log(const std::vector<Key>& log, double now) const;
+  std::string fault_of(const Press& press) const;
+  /// Of what is sent when all is over, without contacts.
+  std::string fault_of_last(const Handover& message, double now) const;
 
  private:
   std::string fault_of(const Handover::Body& body, double now) const;
@@ -50,18 +62,25 @@ class Validator {
   template <class Item, class... Instant>
   std::string first_fault(const std::vector<Item>& list, Instant... now) const;
   bool is_on_its_way(const physics::Motion& motion, double now) const;
-  bool is_body(std::uint32_t number) const { return number < constants_of_.size(); }
   bool is_of_kind(std::uint32_t number, physics::BodyKind kind) const {
-    return is_body(number) && constants_[constants_of_[number]].kind == kind;
+    return has_body(number) && constants_of(number).kind == kind;
   }
+  const BodyConstants& constants_of(std::uint32_t number) const;
   bool is_place(const Vector2& place) const;
+  bool is_drag(double drag) const;
 
   double puck_drag_ = 0.0;  ///< 1/s
+  double drag_max_ = 0.0;   ///< of any body [1/s]
   double glide_max_ = 0.0;  ///< s
   double reach_ = 0.0;      ///< no coordinate lies farther from the field's corner [m]
   std::size_t material_count_ = 0;
-  std::vector<BodyConstants> constants_;     ///< each once: a scene has few
-  std::vector<std::uint32_t> constants_of_;  ///< by body
+  std::uint32_t body_count_ = 0;
+  std::vector<BodyConstants> constants_;  ///< each once: a scene has few
+  /// Of body `first` and all up to the next run: bodies alike stand side by side.
+  struct Run {
+    std::uint32_t first, constants;
+  };
+  std::vector<Run> runs_;
 };
 
 }  // namespace rink::peer

@@ -79,7 +79,7 @@ void WindowPlay::advance() {
         if (on_final) on_final();
       } else {
         send_to_all(Subject::handover, [&](PeerNumber to) {
-          return peer_.verdicts().repeats(to) ? peer_.handover_for_repeat(to) : Handover{};
+          return peer_.verdicts().repeats(to) ? peer_.handover_for(to) : Handover{};
         });
         step_ = Step::repeats;
       }

@@ -28,6 +28,12 @@ class ChangeLog {
   void note(std::uint32_t body) {
     if ((is_listed_[body / 64] >> (body % 64) & 1) == 0) list(body);
   }
+  /// Whether all of `body_count` bodies, which are all there are, are listed already: then note()
+  /// has nothing to add.
+  bool lists_all(std::uint32_t body_count) const {
+    assert(begin_ <= unread_ && (body_count + 63) / 64 == is_listed_.size());
+    return begin_ + entries_.size() - unread_ >= body_count;
+  }
   /// The next body, by number.
   void add(std::uint32_t body) {
     if (body % 64 == 0) is_listed_.push_back(0);

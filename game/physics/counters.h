@@ -35,7 +35,7 @@ constexpr bool is_impact(EventKind kind) { return kind <= EventKind::bat_bat; }
 /// Of windows that were played by tiles (WorldSpec::slabs); no part of a snapshot.
 struct SlabCounters {
   std::uint64_t windows = 0;    ///< those undone among them
-  std::uint64_t undone = 0;     ///< and played in order
+  std::uint64_t undone = 0;     ///< and played anew
   std::uint64_t put_off = 0;    ///< events, as often as they were put off
   std::uint64_t last_pass = 0;  ///< events that were left to the last pass
   std::uint64_t late = 0;       ///< courses that had to be checked

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "game/physics/bodies/partner.h"
@@ -37,12 +38,9 @@ class EventBudget {
   /// Events come in order of time (asserted), and none while the budget is exceeded (asserted).
   void charge(const ChargedEvent& event) {
     assert(event.count > 0 && !is_exceeded());
-    assert(recent_.empty() || latest().time <= event.time);
     if (recent_.empty() || event.time >= begin_ + 1.0) begin_ = event.time, spent_ = 0;
     spent_ += event.count;
-    if (recent_.size() < recent_max) recent_.push_back(event);
-    else recent_[charged_ % recent_max] = event;
-    ++charged_;
+    remember(event);
   }
   /// Whether `events` that all come up to `until`, not before the last one charged, are events of
   /// the present second and not too many.
@@ -50,10 +48,12 @@ class EventBudget {
     return !recent_.empty() && until < begin_ + 1.0 && !is_exceeded() &&
            events <= events_per_s_ - spent_;
   }
-  /// Such events; who took them is not known (asserted).
-  void charge_unseen([[maybe_unused]] Real until, std::uint64_t events) {
+  /// Such events (asserted), the `last` of them in order of time (asserted).
+  void charge_together([[maybe_unused]] Real until, std::uint64_t events,
+                       std::span<const ChargedEvent> last) {
     assert(has_room(until, events));
     spent_ += events;
+    for (const ChargedEvent& event : last) remember(event);
   }
   /// Since the present second began, or as grant() has set it.
   std::uint64_t spent() const { return spent_; }
@@ -74,6 +74,12 @@ class EventBudget {
 
  private:
   const ChargedEvent& latest() const { return recent_[(charged_ - 1) % recent_max]; }
+  void remember(const ChargedEvent& event) {
+    assert(recent_.empty() || latest().time <= event.time);
+    if (recent_.size() < recent_max) recent_.push_back(event);
+    else recent_[charged_ % recent_max] = event;
+    ++charged_;
+  }
 
   std::uint64_t events_per_s_;
   Real begin_ = 0.0;  // of the present second [s]

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "game/physics/real.h"
+#include "game/physics/snapshot_stream.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -17,10 +18,10 @@ class Sum {
     sum_ = sum;
   }
   Real value() const { return sum_ + lost_; }
-  /// Saves or restores it (snapshot_stream.h).
+  /// Saves or restores it (exchange_all of snapshot_stream.h).
   template <class Stream>
   bool exchange(Stream& stream) {
-    return stream.numbers(sum_, lost_);
+    return exchange_all(stream, sum_, lost_);
   }
 
  private:

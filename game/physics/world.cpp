@@ -169,18 +169,20 @@ World::World(std::unique_ptr<Engine> engine)
       slabs_(engine_->spec().slabs ? std::make_unique<Slabs>(*engine_, *engine_->spec().slabs)
                                    : nullptr) {}
 std::vector<std::uint8_t> World::save() const { return to_snapshot(engine_->state()); }
-std::optional<World> World::restore(std::span<const std::uint8_t> bytes) {
+std::optional<World> World::restore(std::span<const std::uint8_t> bytes,
+                                    const std::optional<SlabPlan>& slabs) {
   std::optional<WorldState> state = from_snapshot(bytes);
   if (!state) return std::nullopt;
+  state->spec.slabs = slabs;
   return World(engine_of(std::move(*state)));
 }
 /// Of the plan for slabs all but the workers, who may be at work for this one.
 std::unique_ptr<Simulator> World::copy() const {
-  std::optional<WorldState> state = from_snapshot(save());
-  assert(state);
-  state->spec.slabs = spec().slabs;
-  if (state->spec.slabs) state->spec.slabs->workers = nullptr;
-  return std::unique_ptr<World>(new World(engine_of(std::move(*state))));
+  std::optional<SlabPlan> slabs = spec().slabs;
+  if (slabs) slabs->workers = nullptr;
+  std::optional<World> world = restore(save(), slabs);
+  assert(world);
+  return std::make_unique<World>(std::move(*world));
 }
 
 const WorldSpec& World::spec() const { return engine_->spec(); }

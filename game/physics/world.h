@@ -54,7 +54,6 @@ class World final : public Simulator {
   std::optional<Goal> advance(Real until) override;
   /// As advance(until), but also ends after the event with which `budget` is exceeded, which it
   /// must not have been before (asserted). Whatever is left of that instant comes when it goes on.
-  /// Of events that tiles played the budget knows the number alone.
   std::optional<Goal> advance(Real until, EventBudget& budget);
 
   /// From now on keeps a record of every event, for observers; off at first. Never changes the
@@ -104,9 +103,10 @@ class World final : public Simulator {
   /// The state as bytes: the same on every machine for the same bits. Recorded events are an
   /// observer's and not among it.
   std::vector<std::uint8_t> save() const;
-  /// A world that goes on from there with the same bits; nothing if the bytes are no intact
-  /// snapshot of this version and scalar.
-  static std::optional<World> restore(std::span<const std::uint8_t> bytes);
+  /// A world that goes on from there with the same bits, divided as `slabs` says; nothing if the
+  /// bytes are no intact snapshot of this version and scalar.
+  static std::optional<World> restore(std::span<const std::uint8_t> bytes,
+                                      const std::optional<SlabPlan>& slabs = SlabPlan{});
 
   const WorldSpec& spec() const override;
   const Counters& counters() const override;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "game/replication/names.h"
 #include "game/replication/trajectory.h"
@@ -61,7 +62,7 @@ void Publisher::publish(const Game& game, std::span<const std::uint32_t> felt,
   std::size_t said = 0;
   for (const EntityId id : looked_) {
     Published& published = published_[id.index];
-    if (game.world().is_removed(id)) continue;
+    if (game.world().is_removed(id) || published.is_hidden) continue;
     if (published.object) {
       said += update(game, published, input_of(game, published.entity, felt), stamp) ? 1u : 0u;
     } else if (game.is_there(id)) {
@@ -272,6 +273,30 @@ void Publisher::schedule(const Game& game, Published& published) {
     wakes_.push_back({quiet_until_s, published.entity.id});
     std::push_heap(wakes_.begin(), wakes_.end());
   }
+}
+
+/// The new region has no place until the entity is shown.
+void Publisher::hide(EntityId entity) {
+  if (published_.size() <= entity.index) published_.resize(entity.index + std::size_t{1});
+  Published& published = published_[entity.index];
+  if (std::exchange(published.is_hidden, true) || !published.object) return;
+  const rti::RegionHandle former = std::exchange(published.region, ambassador_.create_region());
+  ambassador_.associate_regions_for_updates(published.object, published.region);
+  ambassador_.delete_region(former);
+  published.registered_flight.reset();
+  published.swept = {};
+  constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
+  published.position = {nowhere, nowhere};  // unequal to wherever it will be
+}
+
+void Publisher::show(EntityId entity) {
+  if (entity.index >= published_.size() || !published_[entity.index].is_hidden) return;
+  published_[entity.index].is_hidden = false;
+  active_.push_back(entity);
+}
+
+std::size_t Publisher::hidden_count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(published_, &Published::is_hidden));
 }
 
 void Publisher::retire_all() {

@@ -47,6 +47,12 @@ class Publisher {
   /// Deletes the objects of all entities: another game begins.
   void retire_all();
 
+  /// The game's owner is not told of the entity any more: it is in no federate's scope, whatever
+  /// the filter decides, until it is shown.
+  void hide(EntityId entity);
+  void show(EntityId entity);
+  std::size_t hidden_count() const;  ///< by counting
+
   /// Entities that the last `publish` registered, with their objects.
   struct Registered {
     rti::ObjectHandle object;
@@ -93,6 +99,7 @@ class Publisher {
     std::optional<std::uint32_t>
         registered_flight;  ///< version of the motion whose flight was registered
     RegionSweep::Swept swept;
+    bool is_hidden = false;  ///< its region was never committed then, which nothing overlaps
   };
 
   /// An entity that is checked at the first tick after `time_s`.

@@ -25,13 +25,15 @@ inline std::byte* put_varint(std::byte* at, std::uint64_t value) {
 }
 
 /// The size of the number that `bytes` begin with, which it sets; 0 where its last byte is missing,
-/// or not among the first ten. Bits beyond the 64th are dropped.
+/// not among the first ten, or not as `put_varint` writes it: a number has one form of bytes.
 inline std::size_t get_varint(std::span<const std::byte> bytes, std::uint64_t& value) {
   value = 0;
   for (std::size_t k = 0; k < varint_size_max && k < bytes.size(); ++k) {
     const auto byte = static_cast<std::uint64_t>(bytes[k]);
     value |= (byte & 0x7f) << 7 * k;
-    if (byte < 0x80) return k + 1;
+    if (byte >= 0x80) continue;
+    const bool is_shortest = byte != 0 || k == 0, has_64_bits = k < 9 || byte <= 1;
+    return is_shortest && has_64_bits ? k + 1 : 0;
   }
   return 0;
 }

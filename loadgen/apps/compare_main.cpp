@@ -15,12 +15,13 @@
 #include "loadgen/experiment/experiment_file.h"
 #include "loadgen/experiment/plan_text.h"
 #include "loadgen/measure/assertion.h"
-#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/equal_error.h"
 #include "loadgen/measure/growth.h"
-#include "loadgen/measure/modes_table.h"
 #include "loadgen/measure/sequential.h"
 #include "loadgen/measure/server_cores.h"
+#include "loadgen/measure/tables/discovery_table.h"
+#include "loadgen/measure/tables/modes_table.h"
+#include "loadgen/measure/tables/nodes_table.h"
 #include "loadgen/report/artefact.h"
 #include "loadgen/report/dictionary.h"
 #include "loadgen/report/sections/saturation_section.h"
@@ -307,7 +308,7 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
               << std::flush;
     if (!options.saturate.is_wanted)
       std::cout << equal_error_table(equal_errors_of(experiment, outcome.runs))
-                << modes_table(shown) << growth_table(growths_of(shown))
+                << modes_table(shown) << nodes_table(shown) << growth_table(growths_of(shown))
                 << cores_table(cores_ratios_of(outcome.runs)) << std::flush;
   }
   if (outcome.was_interrupted) {

@@ -29,7 +29,7 @@ using namespace rink;
 using game::now_s;
 
 struct Options {
-  std::string connect = "127.0.0.1:4711", players = "chaser";
+  std::string connect = "127.0.0.1:4711", second, players = "chaser";
   std::uint32_t matches = 1;
   std::uint64_t seed = 1;
   double duration_s = 0.0, frame_hz = 60.0;
@@ -39,7 +39,9 @@ struct Options {
 struct Rival {
   Rival(const rti::Fom& fom, const game::ObjectModel& model, const Options& options,
         std::size_t number)
-      : match(fom, model, transport, connect(transport, options.connect),
+      : match(fom, model, transport,
+              connect(transport,
+                      number == 0 || options.second.empty() ? options.connect : options.second),
               {.name = "rival-" + std::to_string(number)}),
         bot(options.players, options.seed + number) {}
 
@@ -122,6 +124,8 @@ int main(int count, char** words) {
   flags.version(game::version_line("rink-duel"));
   Options options;
   flags.option("--connect", options.connect, "host, as ADDRESS:PORT").shows_default();
+  flags.option("--second", options.second,
+               "host of the second player, as ADDRESS:PORT: another node; by default the same");
   flags.option("--players", options.players, "the kind of both players")
       .check(game::one_of(game::player_kinds()))
       .shows_default();

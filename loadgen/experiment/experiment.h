@@ -71,6 +71,7 @@ struct Parameters {
   double threshold = 0.005;  ///< [m] of the dead-reckoning policies (game::UpdatePolicySettings)
   bool extrapolates = true;  ///< whether clients extrapolate entities of which they receive
                              ///< positions; without it `periodic` is the paper's
+  std::uint32_t nodes = 1;   ///< servers that share the simulation (game/node), 1 to 64
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
@@ -110,8 +111,9 @@ struct Experiment {
   double duration_s = 3.0;  ///< [s] measured, after the warm-up; 0.1 to 3600
   double warm_up_s = 0.5;   ///< [s] played but not measured; 0 to 600
   std::vector<double> view_fractions{0.05}, view_margins{0.3}, sweep_ticks{0.0}, cell_sizes{0.0},
-      tick_rates_hz{30.0};                                   ///< see Parameters, and parameter.h
-  std::vector<double> thresholds{0.005}, extrapolates{1.0};  ///< see Parameters, and parameter.h
+      tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
+  std::vector<double> thresholds{0.005}, extrapolates{1.0},
+      nodes{1.0};  ///< see Parameters, and parameter.h
   std::vector<std::uint32_t> pucks{0},
       bats{0};             ///< number on the scene's own field; 0: the scene's number
   double view_area = 0.0;  ///< of a client's view [m^2], for any field; 0: view_fraction decides

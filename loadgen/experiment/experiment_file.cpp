@@ -231,6 +231,28 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
     refuse("sends no datagrams: expected a [network] without them");
 }
 
+/// Refuses what nodes cannot do, before cells run that would fail.
+void expect_what_nodes_can(const Experiment& experiment, const std::string& file) {
+  const double most = *std::ranges::max_element(experiment.nodes);
+  if (most == 1.0) return;
+  const auto refuse = [&](const std::string& what) {
+    throw ExperimentError(file + ": nodes = " + shortest(most) + " " + what);
+  };
+  if (std::ranges::find(experiment.modes, peer_mode) != experiment.modes.end())
+    refuse(std::string("is of servers that share a simulation, and peers have none: expected ") +
+           "modes = \"client-server\"");
+  if (experiment.transport != TransportKind::tcp)
+    refuse(std::string("needs transport = \"tcp\", not \"") + to_string(experiment.transport) +
+           "\": nodes play in threads and by clocks of their own, in real time");
+  if (experiment.keys != KeySource::live)
+    refuse("needs keys = \"live\": nodes play what their clients press, and no key log");
+  if (experiment.start_s > 0.0)
+    refuse("begins with the scene, for no node takes over a saved game: expected start_s = 0");
+  if (const std::uint32_t fewest = *std::ranges::min_element(experiment.clients); most > fewest)
+    refuse("is more than clients = " + std::to_string(fewest) +
+           ": expected a client for each node at least");
+}
+
 /// A saved game is one of keys that are known beforehand.
 void expect_what_can_start_warm(const Experiment& experiment, const std::string& file) {
   if (experiment.start_s == 0.0 || experiment.keys == KeySource::replay ||
@@ -286,6 +308,7 @@ Experiment part_in(ExperimentReader& reader, const Experiment& whole,
   reader.refuse_the_rest();
   expect_use_of_relevance(reader, result, file.string());
   expect_what_peers_can(result, file.string());
+  expect_what_nodes_can(result, file.string());
   expect_use_of_always(result, file.string());
   expect_what_can_start_warm(result, file.string());
   return result;
@@ -321,6 +344,7 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   expect_baseline(reader, result, file.string());
   if (!result.parts.empty()) return result;
   expect_what_peers_can(result, file.string());
+  expect_what_nodes_can(result, file.string());
   expect_use_of_always(result, file.string());
   expect_what_can_start_warm(result, file.string());
   return result;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "game/net/peer/network/greetings.h"
 #include "game/replication/update_policy.h"
 #include "rti/federation_execution.h"
 
@@ -19,6 +20,8 @@ bool always(const Cell&) { return true; }
 bool has_cells(const Cell& cell) { return im::takes_cell_size(cell.scheme); }
 bool reckons(const Cell& cell) { return game::takes_threshold(cell.policy); }
 bool tells_positions(const Cell& cell) { return cell.policy == "periodic"; }
+bool has_server(const Cell& cell) { return cell.mode != peer_mode; }
+static_assert(game::peers_max == 64, "as the words for `nodes` say");
 
 constexpr std::array kinds{
     ParameterKind{"view_fraction", "numbers above 0 and at most 1",
@@ -58,7 +61,12 @@ constexpr std::array kinds{
                   [](const Parameters& p) { return p.extrapolates ? 1.0 : 0.0; },
                   [](Parameters& p, double v) { p.extrapolates = v != 0.0; },
                   &Experiment::extrapolates, tells_positions, "extrapolate", "extrapolate ", "",
-                  "positions are extrapolated", "ahead", 1.0, true}};
+                  "positions are extrapolated", "ahead", 1.0, true},
+    ParameterKind{"nodes", "whole numbers from 1 to 64",
+                  [](double v) { return v >= 1.0 && v <= game::peers_max; }, true,
+                  [](const Parameters& p) { return static_cast<double>(p.nodes); },
+                  [](Parameters& p, double v) { p.nodes = static_cast<std::uint32_t>(v); },
+                  &Experiment::nodes, has_server, "nodes", "", " nodes", "nodes", "nodes", 1.0}};
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 #include "loadgen/experiment/csv_number.h"
 #include "loadgen/measure/formatted.h"
-#include "loadgen/measure/table_number.h"
+#include "loadgen/measure/tables/table_number.h"
 
 namespace rink::loadgen {
 namespace {

@@ -143,21 +143,20 @@ std::optional<double> per(std::optional<double> amount, std::optional<double> di
 
 /// The amounts that one process sent on its connections.
 struct Sent {
-  std::optional<double> bytes, segments, acknowledgements;
+  std::optional<double> bytes, segments, acknowledgements, with_headers;
 
   explicit Sent(ReportReader& report)
       : bytes(report(report::bytes_sent)),
         segments(report(report::segments_sent)),
         acknowledgements(report(report::acknowledgements_sent)) {
     const auto kernel_segments = report(report::kernel_segments_sent);
-    // Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one
-    // of each further two is missing.
-    if (acknowledgements && segments && kernel_segments)
-      *acknowledgements += 0.5 * std::max(0.0, *segments - *kernel_segments);
-  }
-  std::optional<double> with_headers() const {
-    if (!bytes || !segments || !acknowledgements) return std::nullopt;
-    return *bytes + segment_header_bytes * (*segments + *acknowledgements);
+    if (!acknowledgements || !segments) return;
+    const SentAmounts sent{.bytes = bytes.value_or(0.0),
+                           .segments = *segments,
+                           .acknowledgements = *acknowledgements,
+                           .kernel_segments = kernel_segments.value_or(*segments)};
+    acknowledgements = sent.all_acknowledgements();
+    if (bytes) with_headers = sent.with_headers();
   }
 };
 
@@ -180,8 +179,8 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
   const Sent by_server(server), by_bots(bots);
   const auto down = by_server.bytes, up = server(report::bytes_received);
   const auto bots_measured_s = bots(report::measured_s);
-  const auto wire_down_per_s = per(by_server.with_headers(), record.measured_s),
-             wire_up_per_s = per(by_bots.with_headers(), bots_measured_s);
+  const auto wire_down_per_s = per(by_server.with_headers, record.measured_s),
+             wire_up_per_s = per(by_bots.with_headers, bots_measured_s);
   record.down_bytes_per_client_per_s = per(per(down, record.measured_s), clients);
   record.up_bytes_per_client_per_s = per(per(up, record.measured_s), clients);
   if (wire_down_per_s && wire_up_per_s)
@@ -199,8 +198,8 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
                                        per(by_bots.acknowledgements, bots_measured_s));
 }
 
-/// The busiest node is the server where there is one, since all traffic passes it; peers report
-/// that of the busiest peer.
+/// The busiest node is the server where there is one, since all traffic passes it; several nodes,
+/// and peers, report that of the busiest.
 void fill_nodes(RunRecord& record, ReportReader& server) {
   const bool are_peers = record.cell.mode == peer_mode;
   const auto down = server.if_there(report::bytes_sent),
@@ -209,10 +208,11 @@ void fill_nodes(RunRecord& record, ReportReader& server) {
     return per(per(bytes, record.measured_s), record.cell.clients);
   };
   if (are_peers) {
-    const auto [halo, claims, agreement, interest, updates, keys] = report::traffic_bytes;
+    const auto [halo, claims, agreement, interest, updates, keys, standby] = report::traffic_bytes;
     record.traffic = {rate(server.if_there(halo)),      rate(server.if_there(claims)),
                       rate(server.if_there(agreement)), rate(server.if_there(interest)),
-                      rate(server.if_there(updates)),   rate(server.if_there(keys))};
+                      rate(server.if_there(updates)),   rate(server.if_there(keys)),
+                      rate(server.if_there(standby))};
     record.nodes.busiest_bytes_per_s =
         per(server.if_there(report::busiest_node_bytes), record.measured_s);
   } else {
@@ -221,8 +221,16 @@ void fill_nodes(RunRecord& record, ReportReader& server) {
     record.traffic.updates = rate(states), record.traffic.keys = rate(keys);
     if (down && up && states && keys)
       record.traffic.interest = rate(std::max(0.0, *down + *up - *states - *keys));
-    if (down && up) record.nodes.busiest_bytes_per_s = per(*down + *up, record.measured_s);
+    if (down && up && record.cell.parameters.nodes == 1)
+      record.nodes.busiest_bytes_per_s = per(*down + *up, record.measured_s);
+    if (record.wire_bytes_per_client_per_s && record.cell.parameters.nodes == 1)
+      record.nodes.busiest_link_bytes_per_s =
+          *record.wire_bytes_per_client_per_s * record.cell.clients;
   }
+  if (const auto link = server.if_there(report::busiest_link_bytes))
+    record.nodes.busiest_link_bytes_per_s = per(link, record.measured_s);
+  record.nodes.between_bytes_per_s =
+      per(server.if_there(report::between_nodes_bytes), record.measured_s);
   record.nodes.busiest_events_per_s =
       per(server.if_there(are_peers ? report::busiest_node_events : report::physics_events),
           record.measured_s);
@@ -286,8 +294,8 @@ void judge(RunRecord& record, const nlohmann::json& server_report,
   std::vector<std::string> complaints;
   const bool has_kernel_counts = record.transport == "tcp" || record.transport == "udp";
   const bool may_lack_figures =
-      !has_kernel_counts ||
-      record.cell.mode == peer_mode;  // no peer plays, filters and sends for all
+      !has_kernel_counts || record.cell.mode == peer_mode ||
+      record.cell.parameters.nodes > 1;  // nobody plays, filters and sends for all
   ReportReader server(server_report, "server", may_lack_figures, complaints),
       bots(bots_report, "bots", may_lack_figures, complaints);
   fill_from_server(record, server);

@@ -129,6 +129,10 @@ void visit_fields(Line& line, Record& run) {
   line.field("extrapolate", run.cell.parameters.extrapolates);
   line.text_or_null("keys_trouble", run.keys_trouble);
   line.field("acknowledgements_per_s", run.acknowledgements_per_s);
+  line.field("standby_bytes_per_client_per_s", run.traffic.standby);
+  line.field("busiest_link_bytes_per_s", run.nodes.busiest_link_bytes_per_s);
+  line.field("nodes", run.cell.parameters.nodes);
+  line.field("between_nodes_bytes_per_s", run.nodes.between_bytes_per_s);
 }
 
 /// One line of runs.jsonl, keys in the documented order.

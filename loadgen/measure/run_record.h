@@ -1,6 +1,7 @@
 // The figures of one run of a server and its bots: a line of runs.jsonl.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,15 +16,31 @@ namespace rink::loadgen {
 /// 894, 791, 9293, 7323).
 inline constexpr double segment_header_bytes = 66.0;
 
-/// Traffic by purpose, in bytes for each client (or peer) and second (docs/metrics.md, "Nodes").
-struct TrafficFigures {
-  std::optional<double> halo, claims, agreement, interest, updates, keys;
+/// What one end of connections sent.
+struct SentAmounts {
+  double bytes = 0.0, segments = 0.0, acknowledgements = 0.0, kernel_segments = 0.0;
+
+  /// Where the kernel's segments are larger than Ethernet's their receiver acknowledges fewer: one
+  /// of each further two is missing.
+  double all_acknowledgements() const {
+    return acknowledgements + 0.5 * std::max(0.0, segments - kernel_segments);
+  }
+  double with_headers() const {
+    return bytes + segment_header_bytes * (segments + all_acknowledgements());
+  }
 };
 
-/// The load of the busiest node: the server, or one of the peers.
+/// Traffic by purpose, in bytes for each client (or peer) and second (docs/metrics.md, "Nodes").
+struct TrafficFigures {
+  std::optional<double> halo, claims, agreement, interest, updates, keys, standby;
+};
+
+/// The load of the busiest node: the server, one of several, or one of the peers.
 struct NodeFigures {
-  std::optional<double> busiest_bytes_per_s;   ///< sent and received
-  std::optional<double> busiest_events_per_s;  ///< of physics, those of ghosts alone included
+  std::optional<double> busiest_bytes_per_s;       ///< sent and received
+  std::optional<double> busiest_link_bytes_per_s;  ///< with headers, of acknowledgements too
+  std::optional<double> busiest_events_per_s;      ///< of physics, those of ghosts alone included
+  std::optional<double> between_bytes_per_s;       ///< of all nodes to each other, with headers
   std::optional<double> busiest_cpu_s,
       mean_cpu_s;  ///< processor time from start to end; the mean is over all nodes: server and
                    ///< clients, or peers

@@ -151,6 +151,12 @@ constexpr std::array all_figures{
            [](const RunRecord& run) { return run.nodes.busiest_events_per_s; }},
     Figure{"busiest_node_cpu_s", [](const RunRecord& run) { return run.nodes.busiest_cpu_s; }},
     Figure{"mean_node_cpu_s", [](const RunRecord& run) { return run.nodes.mean_cpu_s; }},
+    Figure{"standby_bytes_per_client_per_s",
+           [](const RunRecord& run) { return run.traffic.standby; }},
+    Figure{"busiest_link_bytes_per_s",
+           [](const RunRecord& run) { return run.nodes.busiest_link_bytes_per_s; }},
+    Figure{"between_nodes_bytes_per_s",
+           [](const RunRecord& run) { return run.nodes.between_bytes_per_s; }},
 };
 
 Statistic statistic_of(const Figure& figure, const std::vector<const RunRecord*>& valid_runs) {

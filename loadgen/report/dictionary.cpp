@@ -40,8 +40,9 @@ constexpr std::array of_cells{
     Definition{"threshold", "m", "dead-reckoning threshold",
                "Error of its receivers at which a dead-reckoning policy sends an update"},
     Definition{"extrapolate", "1", "dead reckoning, first order",
-               "1 where clients extrapolate entities that are updated by positions alone, 0 where "
-               "not"},
+               "1 where clients extrapolate entities that are updated by positions alone, else 0"},
+    Definition{"nodes", "1", "cluster size",
+               "Servers that share the simulation, each with its part of the clients"},
     Definition{"seed", "1", "replication",
                "Seed of the population and of the keys: replications differ in it alone"},
     Definition{"valid", "", "",
@@ -59,14 +60,12 @@ constexpr std::array of_figures{
         "down_bytes_per_client_per_s", "B/s", "downstream payload, goodput",
         "Payload that the server sent divided by clients and measured seconds, without headers"},
     Definition{"up_bytes_per_client_per_s", "B/s", "upstream payload",
-               "Payload that the server received divided by clients and measured seconds, without "
-               "headers"},
+               "Payload, without headers, that it received divided by clients and seconds"},
     Definition{"wire_bytes_per_client_per_s", "B/s", "bandwidth, network load",
                "Bytes of both directions with headers of Ethernet, IPv4 and TCP and with "
                "acknowledgements, divided by clients and measured seconds"},
     Definition{"messages_per_s", "1/s", "message rate, updates and interactions",
-               "Attribute updates and interactions that the RTI delivered to all clients per "
-               "measured second"},
+               "Attribute updates and interactions delivered to all clients per measured second"},
     Definition{
         "update_age_ms", "ms", "update latency",
         "Time from the instant at which a tick was due to the first of its news being "
@@ -94,8 +93,7 @@ constexpr std::array of_figures{
     Definition{"keys_due", "1", "", "Keys that the bots' plan has within the run"},
     Definition{"keys_sent", "1", "", "Keys that the bots sent, late ones among them"},
     Definition{"late_sends_fraction", "1", "",
-               "Keys that the bots sent more than 10 ms after they were due divided by all that "
-               "they sent"},
+               "Keys that the bots sent more than 10 ms late divided by all that they sent"},
     Definition{"server_cpu_s", "s", "CPU time of the server",
                "Processor time of the server from start to end, by the kernel"},
     Definition{"bots_cpu_s", "s", "CPU time of the load generator",
@@ -151,29 +149,31 @@ constexpr std::array of_figures{
     Definition{"halo_bytes_per_client_per_s", "B/s", "ghost exchange",
                "Payload of states handed over between peers at the end of a window, divided by "
                "clients and measured seconds"},
-    Definition{
-        "claims_bytes_per_client_per_s", "B/s", "",
-        "Payload of what proves a window among peers, divided by clients and measured seconds"},
+    Definition{"claims_bytes_per_client_per_s", "B/s", "",
+               "Payload of what proves a window among peers, per client and measured second"},
     Definition{"agreement_bytes_per_client_per_s", "B/s", "consensus traffic",
                "Payload of the peers' verdicts, divided by clients and measured seconds"},
     Definition{"interest_bytes_per_client_per_s", "B/s", "subscription traffic",
-               "Payload of where players look, with a server all control bytes, divided by clients "
-               "and measured seconds"},
+               "Payload of where players look (with a server all control), per client and second"},
     Definition{"updates_bytes_per_client_per_s", "B/s", "attribute update traffic",
                "Payload of entity states, divided by clients and measured seconds"},
     Definition{"keys_bytes_per_client_per_s", "B/s", "input traffic",
-               "Payload of key presses and of how many were felt, divided by clients and measured "
-               "seconds"},
+               "Payload of keys and of how many were felt, per client and measured second"},
     Definition{"busiest_node_bytes_per_s", "B/s", "bottleneck bandwidth",
                "Payload that the busiest node sent and received per measured second"},
     Definition{"busiest_node_events_per_s", "1/s", "bottleneck computation",
-               "Physics events that the busiest node computed per measured second, those of ghosts "
-               "alone included"},
+               "Physics events of the busiest node per measured second, ghosts' included"},
     Definition{"busiest_node_cpu_s", "s", "CPU time of the bottleneck",
                "Processor time of the busiest node from start to end, by the kernel"},
     Definition{"mean_node_cpu_s", "s", "CPU time per node",
                "Processor time from start to end, by the kernel, mean over all nodes: server and "
                "bots, or peers"},
+    Definition{"standby_bytes_per_client_per_s", "B/s", "fault tolerance",
+               "Payload of standby copies, divided by clients and measured seconds"},
+    Definition{"busiest_link_bytes_per_s", "B/s", "bottleneck bandwidth",
+               "busiest_node_bytes_per_s with headers, of acknowledgements too"},
+    Definition{"between_nodes_bytes_per_s", "B/s", "inter-server bandwidth",
+               "Bytes that nodes send each other per measured second, with headers"},
 };
 
 /// Further columns of a table beside the cell's and figures; they are no fields of runs.jsonl.

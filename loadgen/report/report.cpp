@@ -5,8 +5,8 @@
 #include <set>
 
 #include "game/model/listed.h"
-#include "loadgen/measure/modes_table.h"
 #include "loadgen/measure/summary.h"
+#include "loadgen/measure/tables/modes_table.h"
 #include "loadgen/report/page.h"
 #include "loadgen/report/plots/text.h"
 #include "loadgen/report/sections/gains.h"

@@ -9,7 +9,7 @@
 
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/formatted.h"
-#include "loadgen/measure/table_number.h"
+#include "loadgen/measure/tables/table_number.h"
 
 namespace rink::loadgen {
 namespace {

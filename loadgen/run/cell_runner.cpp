@@ -2,18 +2,16 @@
 #include "loadgen/run/cell_runner.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "game/players/player_kinds.h"
 #include "game/process/process.h"
-#include "game/replication/update_policy.h"
 #include "loadgen/experiment/parameter.h"
-#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/judge_run.h"
+#include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/measure/truth/truth.h"
 #include "loadgen/run/game_plan.h"
+#include "loadgen/run/nodes/node_processes.h"
 #include "loadgen/run/process_run.h"
 #include "rti/federation_execution.h"
 
@@ -21,19 +19,6 @@ namespace rink::loadgen {
 namespace {
 
 using std::chrono::milliseconds;
-
-std::string with_stderr_tail(const std::string& what, const game::Process& process) {
-  const std::string words = process.stderr_tail();
-  return words.empty() ? what : what + ", saying: " + words;
-}
-
-nlohmann::json report_at(const std::filesystem::path& path, const std::string& who) {
-  std::ifstream stream(path);
-  if (!stream) throw Failure{who + " wrote no report"};
-  nlohmann::json report = nlohmann::json::parse(stream, nullptr, false);
-  if (report.is_discarded()) throw Failure{who + " wrote a report that is not JSON"};
-  return report;
-}
 
 /// One cell while it runs.
 class CellRun {
@@ -62,7 +47,7 @@ class CellRun {
     game::Process server(
         settings_.serve, serve,
         {.processors = is_apart ? settings_.server_processors : std::vector<int>{}});
-    const std::string address = address_of(server);
+    const std::string address = awaited_line(settings_, server, "listening on ", "the server");
     std::vector<std::string> play =
         bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
     if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_trace});
@@ -77,24 +62,6 @@ class CellRun {
   }
 
  private:
-  std::string address_of(game::Process& server) {
-    const auto deadline = after(settings_.listen_limit_s);
-    while (true) {
-      settings_.heed_interrupt();
-      server.attend(look_interval);
-      if (const auto address = server.line_after("listening on ")) return *address;
-      if (server.ending())
-        throw Failure{with_stderr_tail(
-            "the server " + server.ending()->text() + " before it listened", server)};
-      if (Clock::now() > deadline) {
-        server.stop(settings_.stop_grace);
-        throw Failure{with_stderr_tail(
-            "the server did not listen within " + decimal(settings_.listen_limit_s) + " s",
-            server)};
-      }
-    }
-  }
-
   /// Returns when both have ended well.
   void await(game::Process& server, game::Process& bots) {
     const double limit_s = experiment_.warm_up_s + experiment_.duration_s + settings_.join_limit_s;
@@ -142,76 +109,6 @@ class CellRun {
 
 }  // namespace
 
-void pin_apart(RunnerSettings& settings, const std::vector<int>& processors) {
-  settings.server_processors.clear();
-  settings.bots_processors.clear();
-  if (processors.size() < 2) return;
-  settings.server_processors = {processors.front()};
-  settings.bots_processors.assign(processors.begin() + 1, processors.end());
-}
-
-std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell,
-                                         const std::filesystem::path& key_log,
-                                         const std::filesystem::path& report) {
-  std::vector<std::string> arguments{"--scene", experiment.scene};
-  const auto add = [&arguments](const char* flag, const std::string& value) {
-    arguments.insert(arguments.end(), {flag, value});
-  };
-  if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
-  add("--seed", std::to_string(cell.seed));
-  add("--address", "127.0.0.1");
-  add("--port", "0");
-  add("--transport", to_string(experiment.transport));
-  add("--scheme", cell.scheme);
-  if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
-  if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
-  if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
-  if (im::names_scheme(cell.scheme, "always"))
-    for (const std::string& kind : experiment.always) add("--always", kind);
-  if (cell.parameters.sweep_ticks > 0)
-    add("--sweep-ticks", std::to_string(cell.parameters.sweep_ticks));
-  add("--policy", cell.policy);
-  if (game::takes_threshold(cell.policy)) add("--threshold", decimal(cell.parameters.threshold));
-  add("--rate", decimal(cell.parameters.tick_rate_hz));
-  add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
-  add("--warm-up", decimal(experiment.warm_up_s));
-  add("--clients", std::to_string(cell.clients));
-  if (experiment.keys == KeySource::replay) add("--keys", key_log.string());
-  if (experiment.start_s > 0.0) add("--from-state", state_file_of(key_log).string());
-  add("--report", report.string());
-  return arguments;
-}
-
-std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell,
-                                        const std::filesystem::path& key_log,
-                                        const std::string& address,
-                                        const std::filesystem::path& report) {
-  std::vector<std::string> arguments{"--connect", address};
-  const auto add = [&arguments](const char* flag, const std::string& value) {
-    arguments.insert(arguments.end(), {flag, value});
-  };
-  add("--transport", to_string(experiment.transport));
-  add("--count", std::to_string(cell.clients));
-  add("--seed", std::to_string(cell.seed));
-  if (experiment.keys == KeySource::live && experiment.players != "random" &&
-      game::is_player_kind(experiment.players)) {
-    add("--players", experiment.players);
-    add("--scene", experiment.scene);
-  } else {
-    add("--plan", key_log.string());
-  }
-  add("--view", decimal(cell.parameters.view_fraction));
-  if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
-  add("--view-margin", decimal(cell.parameters.view_margin));
-  if (!has_regions(cell)) arguments.emplace_back("--no-regions");
-  if (!cell.parameters.extrapolates) arguments.emplace_back("--no-extrapolate");
-  if (experiment.start_s > 0.0) add("--start", decimal(experiment.start_s));
-  add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
-  add("--warm-up", decimal(experiment.warm_up_s));
-  add("--report", report.string());
-  return arguments;
-}
-
 std::optional<RunRecord> run_cell(const RunnerSettings& settings, const Experiment& experiment,
                                   const Cell& cell, const std::filesystem::path& key_log) {
   std::optional<ProcessRun> run = run_processes(settings, experiment, cell, key_log);
@@ -234,8 +131,12 @@ std::optional<ProcessRun> run_processes(const RunnerSettings& settings,
   ProcessRun run{record_for(experiment, cell)};
   RunRecord& record = run.record;
   try {
-    CellRun(settings, experiment, cell, key_log).run(record);
-    run.has_reports = true;
+    if (cell.parameters.nodes > 1) {
+      run_nodes(settings, experiment, key_log, record);
+    } else {
+      CellRun(settings, experiment, cell, key_log).run(record);
+      run.has_reports = true;
+    }
   } catch (const Failure& failure) {
     record.valid = false;
     record.why_invalid = failure.why;

@@ -27,6 +27,14 @@ void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::s
       " bats; allowed is at most as many clients, or population = \"per_client\"");
 }
 
+/// Nodes would refuse it, each cell anew.
+void expect_no_keys_among_nodes(const Experiment& experiment, const game::Scene& scene) {
+  if (scene.keys.empty() || *std::ranges::max_element(experiment.nodes) == 1.0) return;
+  throw ExperimentError("experiment " + experiment.name + ": nodes: scene " + experiment.scene +
+                        " has scripted keys, and nodes play those of their clients; allowed is one "
+                        "without, such as arena");
+}
+
 /// Random players never look, so their keys need no game; players that look play it here, on its
 /// true state. Live players that look will play by their replicas, so there is nothing to record. A
 /// name of no kind of player is the path of a recorded log.
@@ -82,6 +90,7 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
   try {
     scene = scene_of(experiment, cell);
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
+    expect_no_keys_among_nodes(experiment, scene);
     if (scene.world.field.goal_width > 0.0 &&
         std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) !=
             experiment.modes.end())

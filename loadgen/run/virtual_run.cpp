@@ -18,9 +18,9 @@
 #include "game/players/player_kinds.h"
 #include "game/replication/trajectory_codec.h"
 #include "loadgen/experiment/parameter.h"
-#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/judge_run.h"
 #include "loadgen/measure/results.h"
+#include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/measure/truth/truth.h"
 #include "loadgen/run/bots/bot_crowd.h"
 #include "loadgen/run/bots/bots_report.h"
@@ -76,7 +76,6 @@ class VirtualRun {
   const Cell& cell_;
   std::string state_file_;           ///< empty: the game begins with the scene
   std::vector<std::uint8_t> state_;  ///< its content
-  std::optional<game::Game> begun_;
   rti::NetworkModel model_;
   rti::VirtualNetwork network_;
   rti::VirtualEndpoint server_end_{network_}, bots_end_{network_};
@@ -88,6 +87,17 @@ class VirtualRun {
   game::ServingCounts begin_, end_;
 };
 
+namespace {
+
+/// The saved game in `file`; refused here, where its name is known, if it is none of the scene.
+std::vector<std::uint8_t> state_in(const std::string& file, const game::Scene& scene) {
+  std::vector<std::uint8_t> state = game::read_game_state(file);
+  game::game_in_state(state, scene, file);
+  return state;
+}
+
+}  // namespace
+
 game::ServerSettings VirtualRun::server_settings(const game::Scene& scene,
                                                  const std::vector<game::InputEvent>& keys) const {
   game::ServerSettings settings{.policy = cell_.policy,
@@ -98,7 +108,7 @@ game::ServerSettings VirtualRun::server_settings(const game::Scene& scene,
                                 .events_per_s = settings_.virtual_events_per_s};
   if (experiment_.keys == KeySource::replay) settings.replay = keys;
   settings.always_relevant = game::relevant_kinds_of(scene, experiment_.always);
-  if (begun_) settings.begun = &*begun_;
+  settings.state = state_;
   return settings;
 }
 
@@ -127,11 +137,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       experiment_(experiment),
       cell_(cell),
       state_file_(experiment.start_s > 0.0 ? game.state_file.string() : ""),
-      state_(state_file_.empty() ? std::vector<std::uint8_t>()
-                                 : game::read_game_state(state_file_)),
-      begun_(state_file_.empty()
-                 ? std::nullopt
-                 : std::optional(game::game_in_state(state_, game.scene, state_file_))),
+      state_(state_file_.empty() ? std::vector<std::uint8_t>() : state_in(state_file_, game.scene)),
       model_(network_conditions(experiment, cell)),
       network_(model_),
       serving_(fom, game.scene, server_settings(game.scene, game.keys),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "game/physics/world.h"
@@ -37,6 +38,14 @@ TEST(HardDiscs, TwoMeetHeadOnAndReturnFromTheWalls) {
   EXPECT_NEAR(discs.disc(0).vx, 1.0, 1e-15);    // turned at 0.2, and at the wall 0.4 later
   EXPECT_NEAR(discs.disc(0).time, 0.6, 1e-15);
   EXPECT_EQ(discs.kinetic_energy(), 1.0);
+}
+
+TEST(HardDiscs, RefuseACellThatIsTooFull) {
+  std::vector<HardDiscs::Disc> discs;
+  for (int k = 0; k < 16; ++k) discs.push_back({0.1 + k % 4 * 0.03, 0.1 + k / 4 * 0.03, 0, 0, 0});
+  EXPECT_THROW(HardDiscs(100.0, 0.01, discs), std::length_error);
+  discs.pop_back();
+  EXPECT_NO_THROW(HardDiscs(100.0, 0.01, discs));
 }
 
 TEST(HardDiscs, FindTheEnginesCollisionsInTheSameOrder) {

@@ -11,6 +11,8 @@
 #include "game/control/key_log_file.h"
 #include "game/control/replay.h"
 #include "game/model/random_stream.h"
+#include "game/model/scene_file.h"
+#include "game/physics/subdomain.h"
 #include "tests/game/rink_scenes.h"
 
 namespace rink::game {
@@ -311,6 +313,36 @@ TEST(Records, KeepAllThatWasFeltUpToTheirEndAndNothingThatWasNot) {
   EXPECT_EQ(log.until, 0.5);
   ASSERT_EQ(log.events.size(), 2u);
   EXPECT_EQ(log.events[1], keys[1]);
+}
+
+/// A node shows what other nodes have played: what has changed since the last look is all it needs.
+TEST(AShownGame, IsThatOfWhoPlaysItBitForBit) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Scene scene = with_seed(load_scene("arena"), seed);
+    const std::vector<InputEvent> keys = random_keys(scene, seed, 2.0);
+    Game played(scene), shown(scene);
+    submit_all(played, keys);
+    physics::ChangeCursor cursor;
+    std::size_t next = 0, told = 0;
+    for (int tick = 1; tick <= 60; ++tick) {
+      const double until = tick / 30.0;
+      played.advance(until);
+      std::vector<Game::ShownBody> bodies;
+      for (const EntityId id : played.world().changed(cursor))
+        bodies.push_back({id, physics::Subdomain::state_in(played.world(), id.index)});
+      std::vector<InputEvent> felt;
+      for (; next < keys.size() && keys[next].time <= until; ++next) felt.push_back(keys[next]);
+      shown.show(until, bodies, felt, {});
+      told += bodies.size();
+      ASSERT_EQ(shown.hash(), played.hash()) << "seed " << seed << ", tick " << tick;
+      ASSERT_EQ(shown.now(), played.now());
+      for (const Entity& entity : played.entities()) {
+        ASSERT_EQ(shown.position(entity.id), played.position(entity.id)) << entity.id.index;
+        ASSERT_EQ(shown.world().is_resting(entity.id), played.world().is_resting(entity.id));
+      }
+    }
+    EXPECT_GT(told, played.entities().size()) << "seed " << seed;
+  }
 }
 
 }  // namespace

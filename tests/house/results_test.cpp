@@ -187,14 +187,17 @@ TEST_F(Results, SayHowFarWhatIsForetoldLiesFromWhatHeld) {
 
 TEST_F(Results, NameTheFlagsOfTheProgramsThatAreTimed) {
   report();
-  write("points.csv", "# compiler: GCC 12, asserts off\n# flags: -O3 -DNDEBUG\na,b\n");
+  write("points.csv",
+        "# compiler: GCC 12, asserts off\n# flags: -O3 -DNDEBUG\n# box2d: 2.4.1\n"
+        "# box2d3: absent\na,b\n");
   const std::string page =
       "```measured\ncp -r given report-results/default\n```\n"
       "```provenance\nreport-results/default points.csv\n```\n"
       "```crowd\nreport-results/default\n```\n";
   ASSERT_EQ(run(page), 0) << said();
   EXPECT_THAT(content("docs/results.md"),
-              HasSubstr("accuracy and bench: GCC 12, asserts off, -O3 -DNDEBUG\n"));
+              HasSubstr("accuracy and bench: GCC 12, asserts off, -O3 -DNDEBUG\n"
+                        "other engines: box2d 2.4.1, box2d3 absent\n"));
 }
 
 /// The commands of a page as printed: from each "$ " to the first line that does not go on.

@@ -2,6 +2,7 @@
 // condition that it broke.
 #include <gtest/gtest.h>
 
+#include "im/basics/byte_stream.h"
 #include "im/basics/seeded_stream.h"
 #include "im/checked_filter.h"
 #include "im/composition/combination.h"
@@ -26,6 +27,18 @@ TEST(ImDeathTest, NamesWhatIsWrongWithBoxesAndTheirWorld) {
   EXPECT_DEATH(index.stage(1, unit), "staged_count_ <");
   EXPECT_DEATH(index.stage(1, Motion{unit, unit}), "is_moving_");
   EXPECT_DEATH(SizeLevels().count(-1.0f), "side >= 0");
+}
+
+TEST(ImDeathTest, NamesWhatIsWrongWithNumbersThatAreWritten) {
+  std::vector<std::byte> bytes;
+  ByteWriter writer(bytes);
+  std::uint16_t number = 5;
+  EXPECT_DEATH(writer.range(number, 4), "is_sound");
+  std::uint64_t word = 0x1234;
+  EXPECT_DEATH(writer.part(word, 1), "value >> ");
+  EXPECT_DEATH(writer.part(word, 9), "size <= sizeof value");
+  std::string_view name = "too long";
+  EXPECT_DEATH(writer.text(name, 3), "is_sound");
 }
 
 TEST(ImDeathTest, NamesWhatIsWrongWithRegionsAndTheirHistory) {

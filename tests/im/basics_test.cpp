@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <initializer_list>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
@@ -57,6 +60,24 @@ TEST(Varint, OfMoreThanTenBytesIsNone) {
   bytes.back() = std::byte{0};
   std::uint64_t read = 0;
   EXPECT_EQ(get_varint(bytes, read), 0u);
+}
+
+TEST(Varint, HasOneFormOfBytes) {
+  const auto number = [](std::initializer_list<unsigned> numbers) -> std::optional<std::uint64_t> {
+    std::vector<std::byte> bytes;
+    for (const unsigned byte : numbers) bytes.push_back(static_cast<std::byte>(byte));
+    std::uint64_t read = 0;
+    if (get_varint(bytes, read) != bytes.size()) return std::nullopt;
+    return read;
+  };
+  EXPECT_EQ(number({0}), 0u);
+  EXPECT_EQ(number({0xac, 2}), 300u);
+  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 1}), ~std::uint64_t{0});
+  EXPECT_EQ(number({0xac, 0x82, 0}), std::nullopt);  // 300 in three bytes
+  EXPECT_EQ(number({0x80, 0}), std::nullopt);
+  EXPECT_EQ(number({0x80}), std::nullopt);
+  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 3}), std::nullopt);
+  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 1}), std::nullopt);
 }
 
 TEST(Varint, OfANumberOfAnySignIsShortNearZero) {

@@ -272,5 +272,79 @@ TEST(PublisherTest, SaysByteForByteWhatOneSaysThatLooksAtEveryEntityAtEveryTick)
   EXPECT_GT(goals, 0u) << "scored pucks lie still until their face-off";
 }
 
+/// A second federate on a stage, which sees the entities that are in its region's scope.
+struct Watcher {
+  Watcher(Stage& the_stage, const rti::Fom& fom)
+      : stage(the_stage),
+        endpoint(the_stage.network),
+        ambassador(fom, callbacks),
+        link(ambassador, endpoint, endpoint.connect("rti")) {
+    links.add(link);
+    ambassador.join("rink", "watcher", "watcher");
+    for (int round = 0; round < 4; ++round) exchange();
+  }
+  void exchange() {
+    link.flush(0.0);
+    stage.exchange();
+    endpoint.poll({}, links);
+  }
+  bool sees(rti::ObjectHandle object) {
+    exchange();
+    stage.host.match();
+    return stage.execution.is_in_scope(ambassador.federate(), object);
+  }
+
+  Stage& stage;
+  rti::FederateAmbassador callbacks;
+  rti::InProcessEndpoint endpoint;
+  rti::Ambassador ambassador;
+  rti::FederateLink link;
+  rti::FederateLinks links;
+};
+
+TEST(PublisherTest, HidesAnEntityFromAllWithRegionsUntilItIsShownWhereItIsThen) {
+  const rti::Fom fom = load_rink_fom(test::source_folder() + "/game/net/rink.fom.xml");
+  const ObjectModel model(fom);
+  for (const std::string& policy_name : update_policy_names()) {
+    Stage stage(fom);
+    const auto policy = make_update_policy(policy_name);
+    Game game(small_crowd());
+    Publisher publisher(model, stage.ambassador, *policy, game);
+    std::vector<std::uint32_t> felt(game.player_count());
+    const auto publish = [&](double until) {
+      game.advance(until);
+      publisher.publish(game, felt, {game.now(), 0});
+    };
+    publish(0.0);
+    const EntityId puck = game.entities().back().id;
+    Watcher watcher(stage, fom);
+    const rti::RegionHandle region = watcher.ambassador.create_region();
+    const auto look_at = [&](const Vector2& place) {
+      watcher.ambassador.set_region(
+          region, {place.x() - 0.05, place.y() - 0.05, place.x() + 0.05, place.y() + 0.05});
+      watcher.ambassador.commit_region_modifications(region);
+    };
+    look_at(game.position(puck));
+    watcher.ambassador.subscribe_object_class_attributes(model.entity, {model.shape}, region);
+    ASSERT_TRUE(watcher.sees(publisher.object(puck)));
+
+    publisher.hide(puck), publisher.hide(puck);
+    EXPECT_EQ(publisher.hidden_count(), 1u);
+    EXPECT_FALSE(watcher.sees(publisher.object(puck)));
+    publish(0.5);
+    look_at(game.position(puck));
+    EXPECT_FALSE(watcher.sees(publisher.object(puck)));
+
+    publisher.show(puck), publisher.show(puck);
+    EXPECT_EQ(publisher.hidden_count(), 0u);
+    publish(1.0);
+    look_at(game.position(puck));
+    EXPECT_TRUE(watcher.sees(publisher.object(puck))) << policy_name;
+    publish(1.5);
+    look_at(game.position(puck));
+    EXPECT_TRUE(watcher.sees(publisher.object(puck))) << "it is followed";
+  }
+}
+
 }  // namespace
 }  // namespace rink::game

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numeric>
+#include <string>
 
 #include "game/peer/window/handovers.h"
 #include "game/peer/window/live_players.h"
@@ -17,11 +19,13 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 /// Two pucks that meet at x = 1.95 m, left of the border at 2 m, within 0.05 s; a third far left;
-/// and a bat at the border's left.
-physics::World meeting() {
+/// and a bat at the border's left. An `offset` [m] lets them meet
+/// askew, which is a free impact.
+physics::World meeting(double offset = 0.0) {
   physics::World world(physics::test::rink_of(4.0, 2.0));
   world.add(physics::PuckSpec{.position = {1.85, 1.0}, .velocity = {1.0, 0.0}, .radius = 0.05});
-  world.add(physics::PuckSpec{.position = {2.05, 1.0}, .velocity = {-3.0, 0.0}, .radius = 0.05});
+  world.add(
+      physics::PuckSpec{.position = {2.05, 1.0 + offset}, .velocity = {-3.0, 0.0}, .radius = 0.05});
   world.add(physics::PuckSpec{.position = {0.5, 0.5}, .radius = 0.05});
   world.add(physics::BatSpec{.position = {1.8, 1.7}, .half_extent = {0.05, 0.05}});
   return world;
@@ -29,8 +33,8 @@ physics::World meeting() {
 
 /// What one of two peers keeps of that scene, after a window of 0.05 s.
 struct Side {
-  Side(const physics::World& world, PeerNumber number)
-      : halos(Division::into_strips(field, 2), number, 0.25),
+  Side(const physics::World& world, PeerNumber number, double halo = 0.25)
+      : halos(Division::into_strips(field, 2), number, halo),
         share(world.spec(), world.body_count(), 2) {
     std::vector<std::uint32_t> all(world.body_count());
     std::iota(all.begin(), all.end(), 0u);
@@ -160,6 +164,48 @@ TEST(LivePlayers, PressKeysOfTheirOwnBatsAlone) {
   EXPECT_EQ(left.accusation.text(), "peer 0 presses a key of bat 3, which it does not play");
 }
 
+TEST(LivePlayers, FeelKeysThatCameEarlyAtOnceIfNobodyElseHasTheBat) {
+  constexpr std::uint32_t bat = 3;
+  const Press press{bat, {1.0, 0.0}, 2, 0.0};
+  Side left(meeting(), 0);
+  left.players.seat({.bat = bat, .peer = 1, .period = 0.0, .puck_count = 0});
+  left.players.receive_early(1, press), left.players.receive_early(0, press);
+  left.players.stamp_unseen(0.0, left.keys);
+  EXPECT_THAT(left.keys.due(), IsEmpty()) << "peer 1 has the bat as a ghost";
+  left.players.stamp_early(0.05, left.keys);
+  ASSERT_EQ(left.keys.later().size(), 1u) << "peer 0 does not play it";
+  EXPECT_EQ(left.keys.later().front().time, 0.05);
+
+  Side far(meeting(), 0, 0.01);
+  far.players.seat({.bat = bat, .peer = 1, .period = 0.0, .puck_count = 0});
+  far.players.receive_early(1, press);
+  far.players.stamp_unseen(0.0, far.keys);
+  ASSERT_EQ(far.keys.due().size(), 1u);
+  EXPECT_EQ(far.keys.due().front().time, 0.0);
+  far.players.stamp_early(0.05, far.keys);
+  EXPECT_THAT(far.keys.later(), IsEmpty()) << "each is stamped once";
+}
+
+TEST(LivePlayers, KeepEarlyKeysOfABatOnItsWayForOneWindow) {
+  constexpr std::uint32_t bat = 3;
+  for (const int waits : {1, 2}) {
+    Side right(meeting(), 1);
+    right.players.seat({.bat = bat, .peer = 0, .period = 0.0, .puck_count = 0});
+    right.players.receive_early(0, {bat, {1.0, 0.0}, 2, 0.0});
+    for (int k = 1; k <= waits; ++k) right.players.stamp_early(0.05 * k, right.keys);
+    EXPECT_THAT(right.keys.later(), IsEmpty()) << "it is the other's";
+    right.halos.divide(Division(field, {{{0.0, 0.0, 1.25, 2.0}, 0}, {{1.25, 0.0, 4.0, 2.0}, 1}}, 2),
+                       0.25);
+    std::vector<std::uint32_t> there;
+    for (std::uint32_t body = 0; body < right.share.roles().body_count(); ++body)
+      if (right.share.subdomain().is_there(body)) there.push_back(body);
+    right.share.settle(there, right.halos);
+    ASSERT_TRUE(right.share.owns(bat));
+    right.players.stamp_early(0.15, right.keys);
+    EXPECT_THAT(right.keys.later(), testing::SizeIs(waits == 1 ? 1 : 0));
+  }
+}
+
 TEST(Handovers, BringWhatComesIntoAnotherHalo) {
   const physics::World world = meeting();
   Side left(world, 0), right(world, 1);
@@ -174,6 +220,99 @@ TEST(Handovers, BringWhatComesIntoAnotherHalo) {
   right.handovers.complete(right.check);
   for (const auto& [body, state] : right.handovers.enter(0).bodies) EXPECT_EQ(body, 0u);
   EXPECT_EQ(right.accusation.text(), "peer 0 hands over body 1, which it does not own");
+}
+
+/// What peer 0 hands over to peer 1, which has a ghost of puck 0, after a window of `world`: with
+/// the claims as `alter` leaves them, and the states as `lie` does. Answers the accusation.
+std::string accused(
+    const physics::World& world, const std::function<void(Handover&)>& lie,
+    const std::function<void(Claims&)>& alter = [](Claims&) {}) {
+  Side left(world, 0), right(world, 1);
+  Handover sent = left.handovers.for_next(1, left.window, 0.1, left.homes, left.trace);
+  Claims claims = left.trace.claims_for(1, left.window, left.halos);
+  alter(claims);
+  lie(sent);
+  right.check.receive(0, claims);
+  EXPECT_TRUE(right.check.are_possible(right.window)) << right.accusation.text();
+  right.check.agree(right.window);
+  right.handovers.receive(0, sent);
+  right.handovers.complete(right.check);
+  return right.accusation.text();
+}
+
+constexpr const char* another_state =
+    "peer 0 hands over body 0 in another state than it has claimed";
+
+void nudge(Handover& sent) { sent.free_flights.at(0).velocity.x() *= 1.0 + 1e-9; }
+
+/// Else an owner could hand over another body than the one that all saw fly.
+TEST(Handovers, BringGhostsAsBothHaveThem) {
+  const auto honest = [](Handover& sent) { EXPECT_EQ(sent.free_flights.size(), 1u); };
+  EXPECT_EQ(accused(meeting(0.01), honest), "");
+  EXPECT_EQ(accused(meeting(0.01), nudge), another_state);
+  const auto whole = [](const physics::World& world, std::uint32_t repeats) {
+    return [&world, repeats](Handover& sent) {
+      BodyState state = physics::Subdomain::state_in(world, 0);
+      sent.free_flights.at(0).write_to(state.flight);
+      state.repeats = repeats;
+      sent.free_flights.clear();
+      sent.bodies = {{0, state}};
+    };
+  };
+  const physics::World world = meeting(0.01);
+  EXPECT_EQ(accused(world, whole(world, 0)), "");
+  EXPECT_EQ(accused(world, whole(world, 3)), another_state) << "no claim shows that";
+}
+
+/// A puck that peer 1 does not have meets its ghost of puck 0.
+physics::World meeting_beyond() {
+  physics::World world(physics::test::rink_of(4.0, 2.0));
+  world.add(physics::PuckSpec{.position = {1.8, 1.0}, .radius = 0.05});
+  world.add(physics::PuckSpec{.position = {1.6, 1.01}, .velocity = {3.0, 0.0}, .radius = 0.05});
+  world.add(physics::PuckSpec{.position = {3.0, 0.5}, .radius = 0.05});
+  return world;
+}
+
+TEST(Handovers, BringDoubtfulGhostsAsTheirClaimsSay) {
+  const auto honest = [](Handover& sent) { EXPECT_EQ(sent.free_flights.size(), 1u); };
+  EXPECT_EQ(accused(meeting_beyond(), honest), "");
+  EXPECT_EQ(accused(meeting_beyond(), nudge), another_state);
+  const auto moved = [](double by) {
+    return [by](Handover& sent) {
+      BodyState state = physics::Subdomain::state_in(meeting_beyond(), 0);
+      sent.free_flights.at(0).write_to(state.flight);
+      state.flight.y += by;
+      sent.free_flights.clear();
+      sent.bodies = {{0, state}};
+    };
+  };
+  EXPECT_EQ(accused(meeting_beyond(), moved(0.0)), "");
+  EXPECT_EQ(accused(meeting_beyond(), moved(0.2)), another_state) << "not where it was claimed";
+}
+
+/// One that was only looked at after its impact has another last claim.
+TEST(Handovers, BringGhostsThatWereLookedAtAfterTheirLastImpact) {
+  const auto honest = [](Handover&) {};
+  const auto look_at = [](Claims& claims) {
+    Claims::Body& body = claims.bodies.at(0);
+    ASSERT_EQ(body.number, 0u);
+    ClaimedFlight looked_at = claims.flights.at(body.flight_count - 1);
+    looked_at.state ^= 1;
+    claims.flights.insert(claims.flights.begin() + body.flight_count++, looked_at);
+  };
+  EXPECT_EQ(accused(meeting(0.01), honest, look_at), "");
+  EXPECT_EQ(accused(meeting_beyond(), honest, look_at), "");
+  EXPECT_EQ(accused(meeting_beyond(), nudge, look_at), another_state);
+}
+
+TEST(Handovers, BringNothingOfGhostsOfWhichNothingIsClaimed) {
+  const auto deny = [](Claims& claims) { claims.bodies.clear(), claims.flights.clear(); };
+  EXPECT_EQ(accused(
+                meeting_beyond(), [](Handover& sent) { sent.free_flights.clear(); }, deny),
+            "");
+  EXPECT_EQ(accused(
+                meeting_beyond(), [](Handover&) {}, deny),
+            another_state);
 }
 
 /// Else a peer could press the keys of others' bats, and hold what they own.

@@ -22,13 +22,12 @@ struct Played {
   SceneClasses classes;
 };
 
-/// What `peer` has is its own, or in its halo, or in a group with what is.
+/// What `peer` has is its own, or in its halo or an annex, or in a group with what is.
 void expect_only_halo(const Peer& peer, const Division& division, const std::string& where) {
-  const physics::World& world = peer.world();
+  const physics::PartWorld& world = peer.world();
   for (std::uint32_t body = 0; body < world.body_count(); ++body) {
     const Box place = Box::around(world.position({body}), world.half_extent({body}));
-    const bool is_near =
-        division.is_near(peer.number(), place, peer.halo()) || world.is_held({body});
+    const bool is_near = peer.halos().is_near(peer.number(), place) || world.is_held({body});
     const bool is_ghost = std::binary_search(peer.ghosts().begin(), peer.ghosts().end(), body);
     const bool is_own = division.owner_of(world.position({body})) == peer.number();
     if (!world.is_removed({body}))

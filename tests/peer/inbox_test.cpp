@@ -15,14 +15,16 @@ using testing::ElementsAre;
 /// Hands out what was put into it.
 class Letters : public Mail {
  public:
-  void send(PeerNumber, std::vector<std::uint8_t>) override {}
-  std::vector<std::uint8_t> receive(PeerNumber) override {
+  void send(PeerNumber, std::vector<std::uint8_t> bytes) override { sent.push_back(bytes); }
+  std::vector<std::uint8_t> receive(PeerNumber from) override {
+    if (waiting.empty()) throw PeerGone(from, true, "has left");
     const std::vector<std::uint8_t> first = waiting.front();
     waiting.pop_front();
     return first;
   }
   void part(PeerNumber peer, bool) override { parted.push_back(peer); }
   std::deque<std::vector<std::uint8_t>> waiting;
+  std::vector<std::vector<std::uint8_t>> sent;
   std::vector<PeerNumber> parted;
 };
 
@@ -68,6 +70,58 @@ TEST(Inbox, NamesWhoSendsWhatCannotBe) {
   EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), PeerGone) << "not in order";
   receiver.mail.waiting = {written(Loss{.step = 0, .gone = {0}})};
   EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), Halt) << "it is given up itself";
+}
+
+TEST(Inbox, EndsWithOneResultAlone) {
+  std::vector<Handover> parts(3);
+  parts[1].free_flights = {{.position = {1.0, 1.0}}};
+  Receiver receiver(true), other(true);
+  other.mail.waiting = {written(Handover{})};
+  EXPECT_THROW(other.inbox.confirm(parts, other.now), ProtocolError);
+  receiver.mail.waiting = {other.mail.sent.front(), other.mail.sent.front()};
+  receiver.inbox.confirm(parts, receiver.now);
+  parts[1].free_flights.front().velocity.x() = 1e-9;
+  receiver.mail.waiting = {other.mail.sent.front(), other.mail.sent.front()};
+  try {
+    receiver.inbox.confirm(parts, receiver.now);
+    ADD_FAILURE() << "others have another result";
+  } catch (const ProtocolError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("peer 1 ended with another result"));
+  }
+}
+
+/// Who leaves without its confirmation may have told another end.
+TEST(Inbox, DoesNotEndWithWhoLeavesUnconfirmed) {
+  Receiver receiver(true), other(true);
+  other.mail.waiting = {written(Handover{})};
+  EXPECT_THROW(other.inbox.confirm({}, other.now), ProtocolError);
+  receiver.mail.waiting = {other.mail.sent.front()};
+  EXPECT_THROW(receiver.inbox.confirm({}, receiver.now), LossTold);
+  EXPECT_TRUE(receiver.inbox.has_confirmed(1));
+  EXPECT_FALSE(receiver.inbox.has_confirmed(2));
+  EXPECT_TRUE(receiver.inbox.is_confirmed(receiver.now)) << "by whom is left";
+  EXPECT_TRUE(receiver.inbox.must_recover());
+}
+
+/// Who misses a peer waits for the others' results, but not of whom it hears that it recovers.
+TEST(Inbox, DoesNotAwaitTheResultOfWhoRecovers) {
+  Receiver receiver(true);
+  receiver.inbox.note_gone(2, "peer 2 is gone");
+  receiver.mail.waiting = {written(Loss{.step = 0, .questions = {{2, Answer::missed}}})};
+  EXPECT_THROW(receiver.inbox.confirm({}, receiver.now), LossTold);
+  EXPECT_FALSE(receiver.inbox.is_confirmed(receiver.now));
+}
+
+TEST(Inbox, BoundsWhatIsSaidInARecovery) {
+  Receiver receiver(true);
+  for (int recoveries = 0; recoveries < 2; ++recoveries) {
+    for (std::uint32_t word = 0; word < Inbox::said_max; ++word) receiver.inbox.count_word(1);
+    receiver.inbox.recovered();
+  }
+  for (std::uint32_t word = 0; word < Inbox::said_max; ++word) receiver.inbox.count_word(1);
+  receiver.inbox.count_word(2);
+  EXPECT_THROW(receiver.inbox.count_word(1), LossTold);
+  EXPECT_THAT(receiver.inbox.losses().last(), testing::HasSubstr("peer 1 speaks of losses"));
 }
 
 TEST(Inbox, EndsASessionWithoutReplicas) {

@@ -2,12 +2,14 @@
 // come later.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,15 +37,16 @@ struct Ticket {
 class LossyOffice {
  public:
   static constexpr End ends_max = 32;
+  static constexpr End nobody = ends_max;  ///< for whom a liar may ask
   /// With one whose word is due; changed before anybody waits.
   std::chrono::milliseconds patience = std::chrono::hours(1);
   explicit LossyOffice(PeerNumber peer_count)
-      : lines_(ends_max * ends_max),
-        is_dead_(ends_max),
-        has_finished_(ends_max),
-        is_connected_(ends_max),
-        tickets_(ends_max),
-        callers_(ends_max),
+      : lines_((nobody + 1) * (nobody + 1)),
+        is_dead_(nobody + 1),
+        has_finished_(nobody + 1),
+        is_connected_(nobody + 1),
+        tickets_(nobody + 1),
+        callers_(nobody + 1),
         begin_count_(peer_count),
         end_count_(peer_count) {}
 
@@ -81,27 +84,30 @@ class LossyOffice {
     has_come_.notify_all();
   }
   /// `counted`: those whose loss matters to `own`.
-  std::vector<std::uint8_t> receive(End own, PeerNumber from_number, End from,
-                                    const std::map<PeerNumber, End>& counted) {
+  std::pair<PeerNumber, std::vector<std::uint8_t>> receive(
+      End own, std::span<const std::pair<PeerNumber, End>> from,
+      const std::map<PeerNumber, End>& counted) {
     std::unique_lock lock(mutex_);
     for (;;) {
-      Line& mail = line(from, own);
       for (const auto& [number, end] : counted) {
         if (line(end, own).is_sent_away)
           throw SentAway("peer " + std::to_string(number) + " sent this one away");
         if (!line(end, own).is_parted && (is_dead_[end] || line(end, own).is_cut))
           throw PeerGone(number, false, "peer " + std::to_string(number) + " is gone");
       }
-      if (!mail.waiting.empty()) {
+      for (const auto& [number, end] : from) {
+        Line& mail = line(end, own);
+        if (mail.waiting.empty()) continue;
         std::vector<std::uint8_t> bytes = std::move(mail.waiting.front());
         mail.waiting.pop_front();
-        return bytes;
+        return {number, std::move(bytes)};
       }
-      if (has_finished_[from])
-        throw PeerGone(from_number, true, "peer " + std::to_string(from_number) + " has left");
+      for (const auto& [number, end] : from)
+        if (has_finished_[end])
+          throw PeerGone(number, true, "peer " + std::to_string(number) + " has left");
       if (has_come_.wait_for(lock, patience) == std::cv_status::timeout)
-        throw PeerGone(from_number, false,
-                       "peer " + std::to_string(from_number) + " has said nothing");
+        throw PeerGone(from.front().first, false,
+                       "peer " + std::to_string(from.front().first) + " has said nothing");
     }
   }
 
@@ -159,7 +165,7 @@ class LossyOffice {
     std::deque<std::vector<std::uint8_t>> waiting;
     bool is_cut = false, is_parted = false, is_sent_away = false;
   };
-  Line& line(End from, End to) { return lines_[from * ends_max + to]; }
+  Line& line(End from, End to) { return lines_[from * (nobody + 1) + to]; }
 
   std::vector<Line> lines_;
   std::vector<bool> is_dead_, has_finished_, is_connected_;
@@ -183,14 +189,23 @@ class LossyMail final : public Mail {
         before_word_(std::move(before_word)) {}
   /// What is said may be changed on its way.
   std::function<void(std::vector<std::uint8_t>&)> on_the_way = [](std::vector<std::uint8_t>&) {};
+  /// How often it then arrives.
+  std::function<int(PeerNumber, std::span<const std::uint8_t>)> copies =
+      [](PeerNumber, std::span<const std::uint8_t>) { return 1; };
   void send(PeerNumber to, std::vector<std::uint8_t> bytes) override {
     before_word_(++words_);
     on_the_way(bytes);
-    office_.send(own_, ends_.at(to), std::move(bytes));
+    for (int left = copies(to, bytes); left > 0; --left) office_.send(own_, ends_.at(to), bytes);
   }
   std::vector<std::uint8_t> receive(PeerNumber from) override {
+    return receive_any({&from, 1}).second;
+  }
+  std::pair<PeerNumber, std::vector<std::uint8_t>> receive_any(
+      std::span<const PeerNumber> from) override {
     before_word_(++words_);
-    return office_.receive(own_, from, ends_.at(from), counted_);
+    std::vector<std::pair<PeerNumber, End>> ends;
+    for (const PeerNumber peer : from) ends.emplace_back(peer, ends_.at(peer));
+    return office_.receive(own_, ends, counted_);
   }
   void part(PeerNumber peer, bool is_lost) override {
     if (ends_.contains(peer)) office_.part(own_, ends_.at(peer), is_lost);
@@ -198,10 +213,11 @@ class LossyMail final : public Mail {
   void rejoin(PeerNumber peer) override { office_.rejoin(own_, ends_.at(peer)); }
   std::vector<Newcomer> callers() override { return office_.callers(own_); }
   void refuse(std::uint64_t token, const std::string&, bool may_ask_again) override {
-    office_.answer(token, {.answer = may_ask_again ? Ticket::Answer::again : Ticket::Answer::never,
-                           .number = 0,
-                           .others = {},
-                           .members = {}});
+    office_.answer(ticket_of(token),
+                   {.answer = may_ask_again ? Ticket::Answer::again : Ticket::Answer::never,
+                    .number = 0,
+                    .others = {},
+                    .members = {}});
   }
   void expect(const Candidate& candidate, bool has_asked_here, const State& state) override {
     if (has_asked_here) {
@@ -211,9 +227,9 @@ class LossyMail final : public Mail {
                     .members = state.members,
                     .first_bat = candidate.first_bat};
       ticket.others[own_number(state)] = own_;
-      office_.answer(candidate.newcomer.token, std::move(ticket));
+      office_.answer(ticket_of(candidate.newcomer.token), std::move(ticket));
     }
-    ends_[candidate.number] = candidate.newcomer.token;
+    ends_[candidate.number] = ticket_of(candidate.newcomer.token);
   }
   bool reaches(PeerNumber candidate) override { return office_.reaches(own_, ends_.at(candidate)); }
   bool has_given_up(PeerNumber candidate) override {
@@ -230,6 +246,10 @@ class LossyMail final : public Mail {
   }
 
  private:
+  /// Whoever a liar asks for is nowhere.
+  static End ticket_of(std::uint64_t token) {
+    return std::min<std::uint64_t>(token, LossyOffice::nobody);
+  }
   /// The one of the members that is no other.
   PeerNumber own_number(const State& state) const {
     for (const PeerNumber peer : state.members)

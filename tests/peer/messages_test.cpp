@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <initializer_list>
-#include <optional>
+#include <vector>
 
 #include "game/peer/assembly.h"
 #include "game/peer/session/session.h"
@@ -61,10 +60,12 @@ TEST(Messages, AreReadAsWrittenAndRefusedIfAltered) {
                       .accepts = true,
                       .halo = std::numeric_limits<float>::infinity(),
                       .at_once_max = 3,
-                      .had_solver_failed = true,
                       .events = 9,
                       .leaves = true,
-                      .listed = {0, 7, 255}});
+                      .listed = {0, 7, 255},
+                      .critical = {{0.5, 70, false}, {0.75, 2, true}},
+                      .reports = {{80, 70, 40, ~std::uint64_t{0}}, {}},
+                      .annexes = {{0.5f, 1.0f, 2.0f, 3.0f}, {}}});
 }
 
 /// What nearly all messages among many peers are, so that it decides what these carry
@@ -98,7 +99,7 @@ TEST(Messages, GrowByWhatIsThereAlone) {
   Handover handover;
   const std::size_t nothing = written(handover).size();
   handover.free_flights = {
-      {.number = 8, .position = {1.0, 2.0}, .velocity = {3.0, 4.0}, .time = 0.5}, {}};
+      {.position = {1.0, 2.0}, .velocity = {3.0, 4.0}, .time = 0.5, .number = 8}, {}};
   expect_kept(handover);
   EXPECT_EQ(written(handover).size(), nothing + 1 + 2 * 44);
 }
@@ -116,11 +117,10 @@ TEST(Messages, OfAWindowAreNeverTakenForALossNorALossForThem) {
 }
 
 TEST(Messages, WithAPartThatIsSaidToBeThereAndIsEmptyAreRefused) {
-  physics::SnapshotWriter writer;
-  for (std::uint64_t byte : {0x80u | 2u, 3u, 0u})
-    writer.word(byte, 1);  // flights of bodies, window 3, none
+  std::vector<std::uint8_t> bytes{0x80 | 2, 3, 0};  // flights of bodies, window 3, none
+  physics::add_checksum(bytes, 4);
   Handover handover;
-  EXPECT_FALSE(read(writer.finish(4), handover));
+  EXPECT_FALSE(read(bytes, handover));
 }
 
 TEST(Messages, KeepNumbersOfAnyLength) {
@@ -135,30 +135,18 @@ TEST(Messages, KeepNumbersOfAnyLength) {
   }
 }
 
-TEST(Messages, TakeOnlyTheShortestFormOfANumber) {
-  const auto number = [](std::initializer_list<unsigned> bytes) -> std::optional<std::uint64_t> {
-    physics::SnapshotWriter writer;
-    for (std::uint64_t byte : bytes) writer.word(byte, 1);
-    const std::vector<std::uint8_t> with_checksum = writer.finish();
-    physics::SnapshotReader reader{std::span(with_checksum).first(bytes.size())};
-    std::uint64_t read = 0;
-    if (!exchange_short(reader, read) || !reader.is_at_end()) return std::nullopt;
-    return read;
-  };
-  EXPECT_EQ(number({0}), 0u);
-  EXPECT_EQ(number({0xac, 2}), 300u);
-  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 1}), ~std::uint64_t{0});
-  EXPECT_EQ(number({0xac, 0x82, 0}), std::nullopt);  // 300 in three bytes
-  EXPECT_EQ(number({0x80}), std::nullopt);
-  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 3}), std::nullopt);
-  EXPECT_EQ(number({255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 1}), std::nullopt);
-}
-
 TEST(Messages, WhoseFlightsDoNotAddUpAreRefused) {
   Claims claims{
       .window = 2, .known_count = 0, .bodies = {{4, 3, true}}, .flights = {{}, {}}, .presses = {}};
   Claims received;
   EXPECT_FALSE(read(written(claims), received));
+}
+
+TEST(Messages, WithAnnexesWhoseSidesAreInNoOrderAreRefused) {
+  for (const float side : {0.25f, std::numeric_limits<float>::quiet_NaN()}) {
+    Verdict received;
+    EXPECT_FALSE(read(written(Verdict{.annexes = {{0.5f, 0.0f, side, 1.0f}}}), received)) << side;
+  }
 }
 
 TEST(Messages, WithThrustsThatAreNoNumberAreRefused) {

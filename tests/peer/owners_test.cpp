@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "game/peer/session/part_change.h"
+#include "game/peer/window/accusation.h"
+#include "game/peer/window/homes.h"
 #include "game/peer/window/part_changes.h"
+#include "game/peer/window/timed_keys.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {
@@ -128,6 +132,9 @@ TEST(Homes, AreOutOfReachOfOtherHalos) {
   homes.choose(window);
   homes.find_edge();
   EXPECT_THAT(homes.edge(), ElementsAre(2u, 3u));
+  EXPECT_TRUE(homes.are_safe());
+  left.halos.set_annexes(1, {{0.5, 0.5, 1.9, 0.6}});
+  EXPECT_FALSE(homes.are_safe()) << "an annex reaches further";
 }
 
 TEST(PartChanges, ListWhatChangedAndAllIfAsked) {
@@ -144,6 +151,28 @@ TEST(PartChanges, ListWhatChangedAndAllIfAsked) {
   EXPECT_EQ(changes.change(left.share, {}, true).bodies.size(), 4u);
   changes.note_window(left.share);
   EXPECT_THAT(changes.change(left.share, {}, false).gone, IsEmpty()) << "of the window before";
+}
+
+TEST(PartChanges, AreShortWhereNothingChangedAndReadAsTheyWereWritten) {
+  PartChange change{.step = 100,
+                    .time = 1.5,
+                    .bodies = {},
+                    .gone = {},
+                    .rest_contacts = {},
+                    .keys = {},
+                    .log = {}};
+  EXPECT_EQ(written(change).size(), 14u) << "head, step, time, checksum";
+  change.is_whole = true;
+  change.gone = {3, 5};
+  change.log = {{.time = 1.25, .bat = 2, .input = 1}};
+  const std::vector<std::uint8_t> bytes = written(change);
+  PartChange received;
+  ASSERT_TRUE(read(bytes, received));
+  EXPECT_EQ(written(received), bytes);
+  EXPECT_TRUE(received.is_whole && received.step == 100 && received.time == 1.5);
+  EXPECT_THAT(received.gone, ElementsAre(3u, 5u));
+  ASSERT_EQ(received.log.size(), 1u);
+  EXPECT_EQ(received.log.front().bat, 2u);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 
+#include "game/peer/protocol.h"
 #include "tests/peer/shared_scenes.h"
 
 namespace rink::peer::test {

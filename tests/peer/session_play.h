@@ -23,14 +23,22 @@ namespace rink::peer::test {
 class Play {
  public:
   Play(std::uint64_t number, PeerNumber peer_count, std::uint64_t window_count)
+      : Play(number, peer_count, window_count, shared_scene) {}
+  /// `scene` makes the scene of that number, with keys until then [s].
+  Play(std::uint64_t number, PeerNumber peer_count, std::uint64_t window_count,
+       std::function<SharedScene(std::uint64_t, double)> scene)
       : number_(number),
         peer_count_(peer_count),
         window_count_(window_count),
-        scene_(shared_scene(number, window_length * static_cast<double>(window_count))),
+        make_scene_(std::move(scene)),
+        scene_(make_scene_(number, window_length * static_cast<double>(window_count))),
         cuts_(Cuts::by_count(scene_.world.spec().field, places(), peer_count)),
         office_(peer_count),
         fates(LossyOffice::ends_max, Fate::away),
         ends(LossyOffice::ends_max),
+        lost(LossyOffice::ends_max),
+        may_have_split(LossyOffice::ends_max),
+        last_losses(LossyOffice::ends_max),
         counters(LossyOffice::ends_max),
         messages(LossyOffice::ends_max),
         windows_played(LossyOffice::ends_max) {
@@ -46,13 +54,17 @@ class Play {
       [](End, std::vector<std::uint8_t>&) {};
   /// Told before each advance.
   std::function<void(Session&, End)> before_window = [](Session&, End) {};
+  /// How often what the peer of that end says to a peer arrives.
+  std::function<int(End, PeerNumber, std::span<const std::uint8_t>)> copies =
+      [](End, PeerNumber, std::span<const std::uint8_t>) { return 1; };
+  std::optional<GoalRules> goals{};  ///< of a scene that has some
   bool is_live = false;
   std::uint32_t spare_bats = 0;  ///< of a live scene: for newcomers
   std::uint32_t balance_windows = 0;
 
   void run() {
     const SharedScene start =
-        shared_scene(number_, window_length * static_cast<double>(window_count_));
+        make_scene_(number_, window_length * static_cast<double>(window_count_));
     if (is_live) scene_.keys.clear();
     else find_truth();
     start_ = &start.world;
@@ -139,7 +151,10 @@ class Play {
         .window_count = window_count_,
         .end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); }};
     settings.keys = scene_.keys;
+    // Snapshots come often, and take several steps.
+    settings.standby = {.replay_events = 20 + 150 * (number_ % 4), .piece_bytes = 900};
     settings.balance_windows = balance_windows;
+    settings.goals = goals;
     settings.bat_count = is_live ? static_cast<std::uint32_t>(bats_.size()) : 0;
     const std::uint32_t seated = settings.bat_count - std::min(settings.bat_count, spare_bats);
     for (PeerNumber peer = 0; peer < peer_count_; ++peer) {
@@ -171,6 +186,9 @@ class Play {
     LossyMail mail(office_, number, others, others,
                    [&](std::uint64_t word) { before_word(number, word); });
     mail.on_the_way = [&](std::vector<std::uint8_t>& bytes) { on_the_way(number, bytes); };
+    mail.copies = [&](PeerNumber to, std::span<const std::uint8_t> bytes) {
+      return copies(number, to, bytes);
+    };
     try {
       live(number,
            [&] { return std::make_unique<Session>(*start_, cuts_, settings(number), mail); });
@@ -240,7 +258,11 @@ class Play {
       fates[own] = Fate::halted;
       messages[own] = error.what();
     }
-    if (session) counters[own] = session->counters();
+    if (session) {
+      counters[own] = session->counters(), lost[own] = session->lost();
+      may_have_split[own] = session->may_have_split();
+      last_losses[own] = session->last_loss();
+    }
     office_.finish(own);
   }
 
@@ -290,6 +312,7 @@ class Play {
   std::uint64_t number_;
   PeerNumber peer_count_;
   std::uint64_t window_count_;
+  std::function<SharedScene(std::uint64_t, double)> make_scene_;
   SharedScene scene_;
   Cuts cuts_;
   LossyOffice office_;
@@ -303,6 +326,10 @@ class Play {
  public:
   std::vector<Fate> fates;
   std::vector<std::vector<Handover>> ends;
+  std::vector<std::vector<PeerNumber>>
+      lost;  ///< at the end, and whether others may go on elsewhere
+  std::vector<std::uint8_t> may_have_split;
+  std::vector<std::string> last_losses;
   std::vector<SessionCounters> counters;
   std::vector<std::string> messages;
   std::vector<std::uint64_t> windows_played;

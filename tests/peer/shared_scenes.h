@@ -170,8 +170,58 @@ inline void press_keys(SharedScene& scene, Random& random, const std::vector<phy
   }
 }
 
+/// A lattice of pucks, a little out of place, between two bats that drive at each other, now and
+/// then askew.
+inline void add_squeezed_heap(SharedScene& scene, Random& random, double until) {
+  physics::World& world = scene.world;
+  const physics::Field& field = world.spec().field;
+  const int columns = 3 + static_cast<int>(below(random, 6)),
+            rows = 3 + static_cast<int>(below(random, 5));
+  const double step = 0.0802, length = step * columns, height = step * rows;
+  const double x = uniform(random, 0.1, field.length - length - 0.1),
+               y = uniform(random, 0.02, field.width - height - 0.02);
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      physics::PuckSpec puck{.position = {x + step * (i + 0.5), y + step * (j + 0.5)},
+                             .mass = uniform(random, 0.1, 0.3)};
+      puck.position += Vector2(uniform(random, 0.0, 1e-4), uniform(random, 0.0, 1e-4));
+      if (world.is_free(puck.position, puck.radius)) world.add(puck);
+    }
+  for (const double side : {-1.0, 1.0}) {
+    physics::BatSpec bat{
+        .position = {side < 0.0 ? x - 0.041 : x + length + 0.041, y + 0.5 * height},
+        .half_extent = {0.04, 0.45 * height},
+        .mass = 3.0};
+    if (!world.is_free(bat.position, bat.half_extent)) continue;
+    const std::uint32_t number = world.add(bat).index;
+    scene.keys.push_back({0.0, number, Vector2(-side, 0.0) * 12.0});
+    for (double time = uniform(random, 0.05, 0.3); time < until;
+         time += uniform(random, 0.05, 0.3)) {
+      const double along = uniform(random, 6.0, 12.0), across = uniform(random, -6.0, 6.0);
+      scene.keys.push_back({time, number, Vector2(-side * along, across)});
+    }
+  }
+}
+
+/// Heaps of pucks that bats press together, wherever borders are, and some that fly about.
+inline SharedScene pressed_scene(std::uint64_t number, double until) {
+  Random random(number + 1);
+  const double restitutions[] = {0.5, 0.0, 0.9};
+  physics::WorldSpec spec =
+      physics::test::rink_of(4.0, 2.0, restitutions[number % 3], 0.2 * below(random, 2), 1.0);
+  if (number % 5 == 4) spec.puck_friction = 0.6;
+  SharedScene scene{physics::World(spec), {}};
+  for (int heap = 0; heap < 6; ++heap) add_squeezed_heap(scene, random, until);
+  physics::test::scatter_pucks(scene.world, random, 20, 0.05, 2.0);
+  return scene;
+}
+
+/// Numbers of shared scenes from here on are those of pressed ones.
+inline constexpr std::uint64_t first_pressed_scene = 1'000'000;
+
 /// Scene `number` of many. `until` [s] is how long its keys go on.
 inline SharedScene shared_scene(std::uint64_t number, double until) {
+  if (number >= first_pressed_scene) return pressed_scene(number - first_pressed_scene, until);
   Random random(number + 1);
   static const double restitutions[] = {1.0, 1.0, 0.9, 0.5, 0.0, 0.7};
   const std::uint32_t kind = static_cast<std::uint32_t>(number % 10);

@@ -131,6 +131,7 @@ std::vector<Lie> lies_about_kinds() {
       [](Honest& honest) { honest.state().kind = physics::BodyKind::bat; },
       [](Honest& honest) { honest.state().material = 200; },
       [](Honest& honest) { honest.state().half = physics::Half::left; },
+      [](Honest& honest) { honest.state().flags |= physics::Body::removed; },
       [](Honest& honest) { honest.state().flags = 4; },
       [](Honest& honest) { honest.state().flags = 64; },
       [](Honest& honest) { honest.state().flags = 128; },
@@ -255,7 +256,10 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
   EXPECT_EQ(validator.fault_of(part, now), "");
   lie.state.flight.vx = 0.0, lie.state.flags = 8, part.bodies = {lie}, part.rest_contacts.clear();
   EXPECT_THAT(validator.fault_of(part, now), HasSubstr("in a rest contact that it does not send"));
-  EXPECT_NE(validator.fault_of(std::vector<Key>{{.time = nan, .bat = honest.bat}}), "");
+  for (const double wrong : {nan, -0.1, now + 0.01})
+    EXPECT_NE(validator.fault_of_log({{.time = wrong, .bat = honest.bat}}, now), "");
+  for (const double right : {0.0, now})
+    EXPECT_EQ(validator.fault_of_log({{.time = right, .bat = honest.bat}}, now), "");
 }
 
 TEST(Validator, SeesLossesThatNobodyTells) {

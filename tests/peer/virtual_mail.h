@@ -9,7 +9,9 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/peer/session/session.h"
@@ -140,23 +142,32 @@ class VirtualMail final : public Mail, private rti::TransportListener {
 
   void send(PeerNumber to, std::vector<std::uint8_t> bytes) override { say(to, Kind::mail, bytes); }
   std::vector<std::uint8_t> receive(PeerNumber from) override {
-    Link& link = links_[from];
+    return receive_any({&from, 1}).second;
+  }
+  std::pair<PeerNumber, std::vector<std::uint8_t>> receive_any(
+      std::span<const PeerNumber> from) override {
     const std::int64_t begin_ns = network_.now_ns();
     for (;;) {
       for (PeerNumber peer = 0; peer < links_.size(); ++peer)
         if (!links_[peer].loss.empty() && !links_[peer].is_parted)
           throw PeerGone(peer, false, links_[peer].loss);
-      if (!link.inbox.empty()) {
-        std::vector<std::uint8_t> first = std::move(link.inbox.front());
-        link.inbox.pop_front();
-        return first;
-      }
-      if (link.has_finished)
-        throw PeerGone(from, true, "peer " + std::to_string(from) + " has left");
-      const std::int64_t give_up_ns = std::max(begin_ns, link.heard_ns) + patience_ns_;
+      for (const PeerNumber peer : from)
+        if (!links_[peer].inbox.empty()) {
+          std::vector<std::uint8_t> first = std::move(links_[peer].inbox.front());
+          links_[peer].inbox.pop_front();
+          return {peer, std::move(first)};
+        }
+      for (const PeerNumber peer : from)
+        if (links_[peer].has_finished)
+          throw PeerGone(peer, true, "peer " + std::to_string(peer) + " has left");
+      const auto give_up_at = [&](PeerNumber peer) {
+        return std::max(begin_ns, links_[peer].heard_ns) + patience_ns_;
+      };
+      const PeerNumber last = *std::ranges::min_element(from, {}, give_up_at);
+      const std::int64_t give_up_ns = give_up_at(last);
       if (network_.now_ns() >= give_up_ns) {
-        link.loss = "peer " + std::to_string(from) + " has said nothing for " +
-                    std::to_string(patience_ns_ / 1'000'000) + " ms";
+        links_[last].loss = "peer " + std::to_string(last) + " has said nothing for " +
+                            std::to_string(patience_ns_ / 1'000'000) + " ms";
         continue;
       }
       if (network_.now_ns() >= sign_ns_) {

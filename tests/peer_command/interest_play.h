@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -41,14 +42,18 @@ class AsideMail final : public peer::Mail, public SideChannel {
     say(to, std::move(bytes), true);
   }
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override {
+    return receive_any({&from, 1}).second;
+  }
+  std::pair<peer::PeerNumber, std::vector<std::uint8_t>> receive_any(
+      std::span<const peer::PeerNumber> from) override {
     for (;;) {
       pass_on();
-      std::vector<std::uint8_t> bytes = mail_.receive(from);
+      auto [sender, bytes] = mail_.receive_any(from);
       const bool is_aside = bytes.back() != 0;
       bytes.pop_back();
-      if (is_aside) waiting_.emplace_back(from, std::move(bytes));
+      if (is_aside) waiting_.emplace_back(sender, std::move(bytes));
       pass_on();
-      if (!is_aside) return bytes;
+      if (!is_aside) return {sender, std::move(bytes)};
     }
   }
   void part(peer::PeerNumber peer, bool is_lost) override { mail_.part(peer, is_lost); }

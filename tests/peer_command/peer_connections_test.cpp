@@ -50,6 +50,7 @@ class End final : public rti::TransportListener {
   void on_open(rti::ConnectionId connection) override { links.open(connection); }
   void on_bytes(rti::ConnectionId connection, rti::Bytes bytes) override {
     links.add(connection, bytes);
+    if (PeerLink* const link = links.find(connection)) link->frames.keep();
   }
   void on_close(rti::ConnectionId connection, rti::CloseReason, const std::string&) override {
     if (links.find(connection)) links.note_close(connection);
@@ -142,6 +143,21 @@ TEST_F(PeerConnections, DismissStrangersWithoutAWordAndThoseWhoAreNeverExpected)
   clock_s += 25.0;
   host.links.dismiss_idle(30.0);
   EXPECT_EQ(host.links.dismissed(), 2u);
+}
+
+/// The other end may have its number already, and play; but nobody may fill the memory here.
+TEST_F(PeerConnections, DismissWhoseGreetingCameEarlyWhenTooMuchFollowsIt) {
+  host.links.open(901), host.links.open(902);
+  for (const rti::ConnectionId early : {901, 902}) host.links.find(early)->early = Greeting{};
+  const std::vector<std::byte> part(1024 * 1024);
+  for (int parts = 0; parts < 4; ++parts) host.links.add(901, part);
+  EXPECT_TRUE(host.links.find(901));
+  host.links.add(901, std::span(part).first(1));
+  EXPECT_FALSE(host.links.find(901));
+  EXPECT_EQ(host.links.dismissed(), 1u);
+  host.links.identify(902, 1, info_at(guest.port));
+  for (int parts = 0; parts < 5; ++parts) host.links.add(902, part);
+  EXPECT_TRUE(host.links.find(902)) << "it is a peer";
 }
 
 TEST_F(PeerConnections, AreSeatedByTheFirstPeerAndRefusedWithAReason) {

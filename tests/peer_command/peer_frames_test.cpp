@@ -15,16 +15,15 @@ TEST(PeerFrames, AreThoseOfTheRti) {
   message.push_back(static_cast<std::byte>(FrameKind::mail));
   for (const std::uint8_t byte : content) message.push_back(static_cast<std::byte>(byte));
   writer.appended();
-  const std::vector<std::uint8_t> ours = framed(FrameKind::mail, content);
-  EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(ours)), writer.bytes()));
+  EXPECT_TRUE(std::ranges::equal(framed(FrameKind::mail, content), writer.bytes()));
 }
 
 TEST(PeerFrames, ComeWholeHoweverTheyAreCutAndWaitUntilTheyAreTaken) {
-  std::vector<std::uint8_t> stream = framed(FrameKind::hello, std::vector<std::uint8_t>(300, 7));
-  for (const std::uint8_t byte : framed(FrameKind::sign, {})) stream.push_back(byte);
+  std::vector<std::byte> stream = framed(FrameKind::hello, std::vector<std::uint8_t>(300, 7));
+  for (const std::byte byte : framed(FrameKind::sign, {})) stream.push_back(byte);
   for (const std::size_t cut : {1u, 4u, 5u, 305u, 306u, 308u}) {
     FrameQueue frames;
-    const rti::Bytes all = std::as_bytes(std::span(stream));
+    const rti::Bytes all(stream);
     frames.add(all.first(cut));
     std::optional<Frame> first = frames.next(1000);
     frames.add(all.subspan(cut));
@@ -36,6 +35,23 @@ TEST(PeerFrames, ComeWholeHoweverTheyAreCutAndWaitUntilTheyAreTaken) {
     EXPECT_EQ(second->kind, FrameKind::sign);
     EXPECT_FALSE(frames.next(1000) || frames.is_broken());
   }
+}
+
+TEST(PeerFrames, AreKeptWhenTheirBytesEndBeforeTheyAreTaken) {
+  FrameQueue frames;
+  for (std::uint8_t number = 0; number < 3; ++number) {
+    std::vector<std::byte> bytes = framed(FrameKind::mail, std::vector<std::uint8_t>{number});
+    frames.add(bytes);
+    if (number == 0) {
+      EXPECT_TRUE(frames.next(1000));
+    }
+    EXPECT_EQ(frames.waiting_bytes(), number * bytes.size());
+    frames.keep();
+    std::ranges::fill(bytes, std::byte{});
+  }
+  EXPECT_EQ(frames.next(1000)->content, std::vector<std::uint8_t>{1});
+  EXPECT_EQ(frames.next(1000)->content, std::vector<std::uint8_t>{2});
+  EXPECT_FALSE(frames.next(1000) || frames.is_broken());
 }
 
 TEST(PeerFrames, BreakAtALengthOfNoneOrTooMuchAndAtAKindThatIsNone) {

@@ -3,31 +3,25 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "game/control/game.h"
 #include "game/control/key_log_file.h"
 #include "game/control/playing.h"
 #include "game/model/scene_file.h"
 #include "game/net/exit_status.h"
-#include "game/net/peer/network/rank_mail.h"
-#include "game/process/process.h"
-#include "tests/places.h"
-#include "tests/temporary_folder.h"
+#include "game/net/peer/ranks/rank_words.h"
+#include "tests/peer_command/rank_processes.h"
+#include "tests/peer_command/uneven_scene.h"
 
 namespace rink::game {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using namespace std::chrono_literals;
-using Words = std::vector<std::string>;
 
 std::string text_of(std::uint64_t hash) {
   char text[32];
@@ -35,81 +29,15 @@ std::string text_of(std::uint64_t hash) {
   return text;
 }
 
-/// The processes that `parent` started, the launcher's ranks.
-std::vector<pid_t> children_of(pid_t parent) {
-  std::vector<pid_t> children;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-    std::ifstream stat(entry.path() / "stat");
-    std::string number, name, state;
-    pid_t its_parent = 0;
-    if (stat >> number >> name >> state >> its_parent && its_parent == parent &&
-        name == "(rink-peer)")
-      children.push_back(std::stoi(number));
-  }
-  return children;
-}
-
-/// The processor time that the process has taken in user mode, in ticks of 10 ms.
-long ticks_of(pid_t process) {
-  std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-  std::string field;
-  for (int k = 1; k <= 14; ++k) stat >> field;
-  return std::atol(field.c_str());
-}
-
-class RanksOfMpi : public testing::Test {
+class RanksOfMpi : public RankProcesses {
  protected:
-  void SetUp() override {
-    if (!rti::Ranks::is_built_in()) GTEST_SKIP() << "this build has no MPI";
-    // What the launcher and MPI's own threads leave behind at the end is not ours.
-    setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
-  }
-  void TearDown() override { unsetenv("ASAN_OPTIONS"); }
-
   static Words peer(Words arguments) {
-    arguments.insert(arguments.begin(), {test::binary_folder() + "/bin/rink-peer", "--transport",
-                                         "mpi", "--scene", "arena"});
-    return arguments;
-  }
-  /// `groups` of ranks that differ in what they are given.
-  Process& run(const std::vector<std::pair<int, Words>>& groups) {
-    Words arguments{"mpirun", "--allow-run-as-root", "--oversubscribe"};
-    for (const auto& [count, words] : groups) {
-      if (&words != &groups.front().second) arguments.push_back(":");
-      arguments.insert(arguments.end(), {"-np", std::to_string(count)});
-      arguments.insert(arguments.end(), words.begin(), words.end());
-    }
-    output_ = (folder_ / "output").string();
-    // The shell keeps what is written, however long it is, and becomes the launcher.
-    arguments.insert(arguments.begin(), {"-c", "exec \"$@\" > '" + output_ + "'", "sh"});
-    return *(launcher_ = std::make_unique<Process>("/bin/sh", arguments));
-  }
-  bool ends(std::chrono::seconds limit = 40s) {
-    const auto end = std::chrono::steady_clock::now() + limit;
-    while (!launcher_->ending() && std::chrono::steady_clock::now() < end) launcher_->attend(10ms);
-    return launcher_->ending().has_value();
+    return with_program(std::move(arguments), "rink-peer", {"--scene", "arena"});
   }
   nlohmann::json report() const {
     return nlohmann::json::parse(test::text_of(output_), nullptr, false);
   }
-  /// One of four ranks in the middle of a long game.
-  pid_t one_of_four_that_play() {
-    std::vector<pid_t> ranks;
-    const auto end = std::chrono::steady_clock::now() + 40s;
-    // Where a host's own name is unknown MPI takes seconds to begin, and under a sanitizer half a
-    // second of a processor; whoever has taken a second of it plays.
-    const auto do_play = [&] {
-      return ranks.size() == 4 &&
-             std::ranges::all_of(ranks, [](pid_t rank) { return ticks_of(rank) >= 100; });
-    };
-    while (!do_play() && std::chrono::steady_clock::now() < end)
-      launcher_->attend(10ms), ranks = children_of(launcher_->id());
-    return do_play() ? ranks[2] : 0;
-  }
-
-  test::TemporaryFolder folder_{"ranks"};
-  std::string output_;
-  std::unique_ptr<Process> launcher_;
+  pid_t one_of_four_that_play() { return RankProcesses::one_of_four_that_play("rink-peer"); }
 };
 
 TEST_F(RanksOfMpi, FourOnTwoProcessorsEndInTheHashOfOneEngineWithOneCollectiveForEachAgreement) {
@@ -142,6 +70,17 @@ TEST_F(RanksOfMpi, PlayRecordedKeysToTheHashOfTheirLogAndOneRankPlaysAlone) {
     ASSERT_TRUE(ends());
     EXPECT_EQ(report()["hash"], text_of(playing.game().hash())) << launcher_->stderr_tail();
   }
+}
+
+TEST_F(RanksOfMpi, ShiftZonesTowardEqualLoad) {
+  const std::string file = (folder_ / "uneven.toml").string();
+  std::ofstream(file) << uneven_scene();
+  Game one(load_scene(file));
+  one.advance(2.0);
+  run({{3, with_program({"--until", "2"}, "rink-peer", {"--scene", file})}});
+  ASSERT_TRUE(ends());
+  EXPECT_EQ(report()["hash"], text_of(one.hash())) << launcher_->stderr_tail();
+  EXPECT_GT(report()["ranks"][0]["shifts"], 0);
 }
 
 TEST_F(RanksOfMpi, WhoHaveAnotherSceneOrOtherTermsAreNamedAndNobodyPlays) {
@@ -185,7 +124,7 @@ TEST_F(RanksOfMpi, OneThatFallsSilentIsWaitedForWithPatienceThenAllEnd) {
   ASSERT_TRUE(ends(15s));
   EXPECT_EQ(launcher_->ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
   EXPECT_THAT(launcher_->stderr_tail(), HasSubstr("for 1 s"));
-  for (const pid_t other : children_of(launcher_->id())) EXPECT_NE(kill(other, 0), 0);
+  for (const pid_t other : children_of(launcher_->id(), "rink-peer")) EXPECT_NE(kill(other, 0), 0);
 }
 
 TEST(RankWords, DamagedOnesAreRefusedWhateverIsDamaged) {

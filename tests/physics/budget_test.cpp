@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/physics/overrun.h"
@@ -233,6 +236,36 @@ TEST(Budget, KeepsTheLastEventsInTheirOrder) {
   ASSERT_EQ(recent.size(), EventBudget::recent_max);
   for (std::size_t k = 0; k < recent.size(); ++k)
     ASSERT_EQ(recent[k].body, 10'000 - EventBudget::recent_max + k);
+}
+
+/// Of a gas among posts, whose impacts are left to the last pass, and walls.
+TEST(Budget, NamesTheSameEventsWhetherTilesPlayedThemOrNot) {
+  WorldSpec spec = rink_of(12.0, 6.0, 1.0);
+  spec.slabs = SlabPlan{.tile_cells = 8, .bodies_min = 0, .last_pass_max = 1.0};
+  WorldSpec plain = spec;
+  plain.slabs.reset();
+  World by_tiles(spec), in_order(plain);
+  EventBudget budgets[] = {EventBudget(1'000'000), EventBudget(1'000'000)};
+  for (World* world : {&by_tiles, &in_order}) {
+    std::mt19937_64 random(11);
+    scatter_posts(*world, random, 5);
+    scatter_pucks(*world, random, 600);
+    world->advance(2.5, budgets[world == &in_order]);
+  }
+  EXPECT_GT(by_tiles.counters().slabs.windows, 10u);
+  EXPECT_GT(by_tiles.counters().slabs.windows, 2 * by_tiles.counters().slabs.undone);
+  EXPECT_EQ(by_tiles.hash(), in_order.hash());
+  EXPECT_EQ(budgets[0].spent(), budgets[1].spent());
+  const std::vector<ChargedEvent> recent = budgets[0].recent(), expected = budgets[1].recent();
+  ASSERT_EQ(recent.size(), expected.size());
+  EXPECT_GT(recent.size(), 1000u);
+  for (std::size_t k = 0; k < recent.size(); ++k) {
+    ASSERT_EQ(recent[k].time, expected[k].time) << k;
+    EXPECT_EQ(std::minmax(recent[k].body, recent[k].partner),
+              std::minmax(expected[k].body, expected[k].partner))
+        << k;
+    EXPECT_EQ(recent[k].count, expected[k].count) << k;
+  }
 }
 
 #ifndef NDEBUG

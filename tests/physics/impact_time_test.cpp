@@ -148,5 +148,33 @@ TEST(DrivenImpact, SafeStepsEqualTheQuadraticWhereBothApply) {
   }
 }
 
+/// Against the instant at which the plane itself is met: never later, and nearer than the slack.
+TEST(DrivenImpact, ABodyIsNearAPlaneBeforeItMeetsIt) {
+  std::mt19937_64 random(5);
+  const double slack = 1e-3;
+  int met = 0;
+  for (int i = 0; i < 20000; ++i) {
+    SCOPED_TRACE(i);
+    Motion still, moving;
+    moving.position = {uniform(random, -1, 1), uniform(random, -1, 1)};
+    moving.velocity = {uniform(random, -2, 2), uniform(random, -2, 2)};
+    moving.acceleration = {uniform(random, -3, 3), uniform(random, -3, 3)};
+    if (i % 3 > 0) moving.drag = Vector2::Constant(uniform(random, 0, 2));
+    const HalfPlane plane{i % 2 == 0 ? Vector2(1.0, 0.0) : Vector2(0.0, -1.0),
+                          uniform(random, -3, -1)};
+    const auto meets = first_contact(RelativeMotion{still, moving}, plane, 0.0, 10.0, 4e-16);
+    const auto near = time_near(moving, plane, 0.0, 10.0, slack);
+    if (meets) {
+      ASSERT_TRUE(near && *near <= *meets);
+      ++met;
+    }
+    if (!near) continue;
+    const Motion there = moving.at(*near);
+    EXPECT_LE(plane.gap(there.position).distance, slack);
+    EXPECT_LT(plane.normal.dot(there.velocity), 0.0);
+  }
+  EXPECT_GT(met, 5000);
+}
+
 }  // namespace
 }  // namespace rink::physics::test

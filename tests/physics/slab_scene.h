@@ -17,7 +17,7 @@ namespace rink::physics::test {
 
 /// Pucks on a lattice at some packing, jittered, of different masses; now and then with posts, or
 /// with walls or pucks that lose
-/// energy, with drag, and with books of energy.
+/// energy, some of them all that they can, with drag, and with books of energy.
 struct SlabScene {
   explicit SlabScene(std::uint64_t seed) : random(seed) {
     const int columns = 8 + static_cast<int>(random() % 28);
@@ -27,6 +27,7 @@ struct SlabScene {
     spec.accounts_energy = seed % 3 == 0;
     if (random() % 8 == 0) spec.restitution = RestitutionTable(1, uniform(random, 0.5, 1.0));
     else if (seed % 5 == 2) spec.restitution = RestitutionTable(1, uniform(random, 0.05, 1.0));
+    if (seed % 11 == 4) spec.restitution = RestitutionTable(1, 0.0);
     if (seed % 7 == 3) spec.puck_drag = uniform(random, 0.05, 2.0);
     const bool is_uneven = random() % 2 == 0;
     const double jitter = std::max(0.0, 0.49 * (spacing - 0.0801));
@@ -62,6 +63,39 @@ struct SlabScene {
   std::vector<PuckSpec> pucks;
   int posts = 0;
   double duration = 0.0;
+};
+
+/// The same pucks in a match: goals, and bats among them of which most are long enough to stand in
+/// many cells of the grid; some rest, and some coast.
+struct MatchScene : SlabScene {
+  explicit MatchScene(std::uint64_t match_seed) : SlabScene(match_seed), seed(match_seed) {
+    spec.field.goal_width = 0.3 * spec.field.width;
+    posts = 3;
+    duration *= 2.0;
+  }
+
+  World world(QueuePolicy queue, const std::optional<SlabPlan>& plan = std::nullopt) const {
+    WorldSpec with = spec;
+    with.queue = queue, with.slabs = plan;
+    World world(with);
+    world.record_events(true);
+    std::mt19937_64 places(seed);
+    const double side = spec.field.length;
+    for (int bats = 1 + static_cast<int>(seed % 6); bats > 0; --bats) {
+      BatSpec bat;
+      bat.half_extent = {uniform(places, 0.03, 0.3), uniform(places, 0.03, 0.3)};
+      bat.position = {uniform(places, 0.3, side - 0.3), uniform(places, 0.3, side - 0.3)};
+      if (bats % 3 != 0) bat.velocity = {uniform(places, -1.0, 1.0), uniform(places, -1.0, 1.0)};
+      bat.mass = 3.0;
+      if (world.is_free(bat.position, bat.half_extent)) world.add(bat);
+    }
+    scatter_posts(world, places, posts);
+    for (const PuckSpec& puck : pucks)
+      if (world.is_free(puck.position, puck.radius)) world.add(puck);
+    return world;
+  }
+
+  std::uint64_t seed;
 };
 
 inline void expect_same(const World& slabs, const World& plain) {

@@ -106,14 +106,16 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
 }
 
 /// The barrier is reached with the own bat in sight, so that the start-up is not measured. A client
-/// that joined late, when ticks are due already, plays at once, and so does one in a match, which
-/// itself waits for its players.
+/// that joined late, when ticks are due already or the server says so, plays at once, and so does
+/// one in a match, which itself waits for its players.
 void Client::reach_barrier_once_ready() {
   const EntityReplica* own = bat();
   if (own != nullptr && own->in_scope && own->is_placed) joining_.see_bat();
   if (state() != State::ready || !is_time_kept()) return;
   if (joining_.take_call()) ambassador_.synchronization_point_achieved(start_barrier);
-  else if (replicas_.has_match() || (own != nullptr && own->stamp.tag != 0)) joining_.play();
+  else if (replicas_.has_match() || turns_.is_late_by_timer() ||
+           (own != nullptr && own->stamp.tag != 0))
+    joining_.play();
 }
 
 void Client::federation_synchronized(std::string_view label, std::span<const rti::FederateHandle>) {

@@ -22,6 +22,8 @@ class TurnTaker {
   /// True if it came after the call to the start, so that others do not wait for it before it is
   /// seated.
   bool is_late() const { return pace_ && pace_->is_late != 0; }
+  /// True if it came late, and the server waits for nobody's turns.
+  bool is_late_by_timer() const { return is_late() && !is_synchronous() && !is_time_managed(); }
   /// Synchronous mode: the simulated instant [s] of the newest received tick.
   double turn_s() const { return turn_s_; }
   double lookahead() const { return grid().lookahead(); }

@@ -88,7 +88,7 @@ PeerSight LocalPlayer::sight_of(const peer::Session& session) const {
   add_bodies(peer, peer.ghosts(), KnownBody::Source::ghost, sight);
   if (viewer != nullptr) add_replicas(sight);
   sight.zones.own_peer = peer.number();
-  sight.zones.halo = peer.halo();
+  sight.zones.halo = peer.halos().own();
   sight.zones.own_count = peer.owned().size();
   const physics::Field& field = game_.scene().world.field;
   for (const peer::PeerNumber member : session.members())
@@ -119,7 +119,7 @@ void LocalPlayer::add_replicas(PeerSight& sight) const {
 
 void LocalPlayer::add_bodies(const peer::Peer& peer, const std::vector<std::uint32_t>& bodies,
                              KnownBody::Source source, PeerSight& sight) const {
-  const physics::World& world = peer.world();
+  const physics::PartWorld& world = peer.world();
   for (const std::uint32_t body : bodies) {
     if (world.kind({body}) == physics::BodyKind::post) continue;
     if (source == KnownBody::Source::ghost) sight.zones.ghosts.push_back(body);

@@ -3,9 +3,9 @@
 
 #include <utility>
 
-namespace rink::game {
+#include "game/peer/standby/part_at_start.h"
 
-namespace {}  // namespace
+namespace rink::game {
 
 PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
                    const peer::Division& division, peer::PeerNumber number, Send send)
@@ -20,14 +20,20 @@ PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
       interest_(game.start(), settings, *peer_, division_,
                 [this](peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> bytes) {
                   count_and_send(to, about, std::move(bytes));
-                }) {
+                }),
+      validator_(game.start().world()) {
   play_.on_final = [this] { finish(); };
   play_.on_commit = [this] {
     interest_.note_places();
+    tell_standby();
     if (on_commit) on_commit();
     if (waiting_ > 0) --waiting_, play_next();
   };
   peer_->begin(end_of(1));
+  peer_->part_log().begin(validator_);
+  const peer::PeerNumber count = division_.peer_count();
+  kept_.begin(peer::part_at_start(game.start().world(), division_, (number + count - 1) % count,
+                                  peer_->halos().own(), validator_));
   interest_.note_places();
 }
 
@@ -36,6 +42,31 @@ void PeerNode::count_and_send(peer::PeerNumber to, Traffic about,
   sent_[static_cast<std::size_t>(about)] += content.size();
   ++messages_sent_[static_cast<std::size_t>(about)];
   send_(to, about, std::move(content));
+}
+
+/// As peer::Session does, to the next peer in the ring: each has a zone, and none is ever lost.
+void PeerNode::tell_standby() {
+  const peer::PeerNumber count = division_.peer_count(), to = (peer_->number() + 1) % count;
+  if (count == 1) return;
+  peer::PartRecord record = peer_->part_log().record();
+  record.step = final_;
+  feed_.note(record);
+  if (feed_.is_due()) feed_.begin(final_, written(peer_->part_log().snapshot()));
+  std::vector<peer::SnapshotPiece> pieces = feed_.take(false);
+  record.piece_count = static_cast<std::uint32_t>(pieces.size());
+  count_and_send(to, Traffic::standby, written(std::move(record)));
+  for (peer::SnapshotPiece& piece : pieces)
+    count_and_send(to, Traffic::standby, written(std::move(piece)));
+}
+
+bool PeerNode::hear_standby(std::vector<std::uint8_t> content) {
+  if (peer::SnapshotPiece piece; read(content, piece))
+    return !kept_.is_empty() && kept_.add(std::move(piece), validator_).empty();
+  peer::PartRecord record;
+  if (!read(content, record)) return false;
+  record.time = end_of(record.step);
+  return fault_of(record, validator_, end_of(record.step - 1), record.time).empty() &&
+         kept_.add(std::move(record));
 }
 
 void PeerNode::due() {
@@ -58,6 +89,9 @@ void PeerNode::finish() {
 }
 
 bool PeerNode::receive(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content) {
+  if (about == Traffic::standby)
+    return (from + 1) % division_.peer_count() == peer_->number() &&
+           hear_standby(std::move(content));
   const bool is_of_windows =
       about == Traffic::halo || about == Traffic::claims || about == Traffic::agreement;
   if (!is_of_windows) return interest_.receive(from, about, std::as_bytes(std::span(content)));

@@ -10,6 +10,8 @@
 #include "game/net/peer/interest/shared_interest.h"
 #include "game/net/peer/shared_game.h"
 #include "game/net/peer/traffic.h"
+#include "game/peer/standby/standby_copy.h"
+#include "game/peer/standby/standby_feed.h"
 #include "game/peer/window_play.h"
 
 namespace rink::game {
@@ -48,6 +50,8 @@ class PeerNode {
 
  private:
   void count_and_send(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content);
+  void tell_standby();
+  bool hear_standby(std::vector<std::uint8_t> content);
   void play_next();
   void finish();
   double end_of(std::uint64_t window) const { return static_cast<double>(window) / rate_hz_; }
@@ -58,6 +62,9 @@ class PeerNode {
   std::unique_ptr<peer::Peer> peer_;
   peer::WindowPlay play_;
   SharedInterest interest_;
+  peer::Validator validator_;
+  peer::StandbyFeed feed_{peer::StandbyLimits{}};
+  peer::StandbyCopy kept_;  ///< of the part of the peer before this one
   std::uint32_t begun_ = 0, final_ = 0,
                 waiting_ = 0;  ///< windows; the last: windows whose end has come and that are not
                                ///< played yet

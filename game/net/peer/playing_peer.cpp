@@ -1,9 +1,9 @@
 // Runs a peer from its first message to its last, and shows the window each stage.
 #include "game/net/peer/playing_peer.h"
+#include "game/net/peer/network/unguessable_number.h"
 
 #include <chrono>
 #include <cstdio>
-#include <random>
 
 #include "game/control/key_log_file.h"
 #include "game/model/scene_file.h"
@@ -21,12 +21,6 @@ namespace {
 Scene scene_of(const PlayingPeerSettings& settings) {
   Scene scene = load_scene(settings.scene);
   return settings.bats > 0 ? scaled_to_bats(std::move(scene), settings.bats) : scene;
-}
-
-std::uint64_t unguessable_number() {
-  std::random_device device;
-  const std::uint64_t upper = device();
-  return upper << 32 | device();
 }
 
 }  // namespace

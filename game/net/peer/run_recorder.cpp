@@ -5,12 +5,9 @@
 #include <limits>
 #include <utility>
 
-#include "game/net/interrupt.h"
 #include "game/net/peer/network/frames.h"
 
 namespace rink::game {
-
-namespace {}  // namespace
 
 void RunRecorder::CountedMail::send(peer::PeerNumber to, std::vector<std::uint8_t> content) {
   bytes[static_cast<std::size_t>(about)] += frame_head + content.size();
@@ -118,32 +115,6 @@ void RunRecorder::end() {
   player_.reset();
   network_.before_wait = {};
   Viewer::end();
-}
-
-double start_together(PeerNetwork& network, double (*now_s)()) {
-  constexpr std::uint8_t word = 0xff;
-  constexpr double look_s = 0.05;
-  const peer::PeerNumber count = network.terms().peer_count;
-  peer::PeerNumber ready = 1;
-  std::optional<double> start_s;
-  std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> others;
-  network.receive_aside = [&](peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
-    if (bytes.size() != 1 || bytes[0] != word) others.emplace_back(from, std::move(bytes));
-    else if (from == 0) start_s = now_s();
-    else ++ready;
-    return true;
-  };
-  if (network.number() != 0) network.send_aside(0, {word});
-  while (network.number() == 0 ? ready < count : !start_s) {
-    if (is_interrupted) throw SessionError(ExitStatus::interrupted, "interrupted");
-    network.rest_until(now_s() + look_s);
-  }
-  network.receive_aside = {};
-  // A peer that received it earlier may have begun.
-  for (auto& [from, bytes] : others) network.defer(from, std::move(bytes));
-  if (start_s) return *start_s;
-  for (peer::PeerNumber to = 1; to < count; ++to) network.send_aside(to, {word});
-  return now_s();
 }
 
 }  // namespace rink::game

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/net/peer/interest/viewer.h"
@@ -41,6 +43,10 @@ class RunRecorder final : public Viewer {
     std::vector<std::uint8_t> receive(peer::PeerNumber from) override {
       return network_.receive(from);
     }
+    std::pair<peer::PeerNumber, std::vector<std::uint8_t>> receive_any(
+        std::span<const peer::PeerNumber> from) override {
+      return network_.receive_any(from);
+    }
     void part(peer::PeerNumber peer, bool is_lost) override { network_.part(peer, is_lost); }
     Traffic about = Traffic::claims;
     TrafficBytes bytes{}, messages{};
@@ -69,9 +75,5 @@ class RunRecorder final : public Viewer {
   bool has_begun_ = false, has_ended_ = false;
   std::uint32_t felt_ = 0;
 };
-
-/// Agrees on the start: the first peer sends it when all are ready. Returns the instant [s of the
-/// clock], one message late at the others. Throws SessionError.
-double start_together(PeerNetwork& network, double (*now_s)());
 
 }  // namespace rink::game

@@ -75,6 +75,20 @@ class Membership {
 
 }  // namespace
 
+std::uint64_t window_count_of(const Terms& terms) {
+  constexpr double rounding =
+      1e-9;  // a third of a second is no whole number of windows of a thirtieth otherwise
+  return static_cast<std::uint64_t>(
+      std::max(1.0, std::ceil(terms.until / terms.window - rounding)));
+}
+
+double end_of_window(const Terms& terms, std::uint64_t window) {
+  const std::uint64_t last = window_count_of(terms);
+  return window == last  ? terms.until
+         : window > last ? terms.until + terms.window
+                         : static_cast<double>(window) * terms.window;
+}
+
 SharedGame::SharedGame(Scene scene, const std::vector<InputEvent>& recorded)
     : scene_(std::move(scene)), keys_(merged(scene_.keys, recorded)), start_(scene_) {
   for (const Entity& entity : start_.entities()) {
@@ -250,22 +264,16 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
                                  .halo = first_halo(terms.window),
                                  .is_replicated = terms.is_replicated,
                                  .end_of = {}};
-  constexpr double rounding =
-      1e-9;  // a third of a second is no whole number of windows of a thirtieth otherwise
-  const auto count = settings.window_count =
-      static_cast<std::uint64_t>(std::max(1.0, std::ceil(terms.until / terms.window - rounding)));
-  // The last window ends at `until`, the one that is prepared then, and never played, one window
-  // later.
-  settings.end_of = [terms, count](std::uint64_t k) {
-    return k == count  ? terms.until
-           : k > count ? terms.until + terms.window
-                       : static_cast<double>(k) * terms.window;
-  };
+  settings.window_count = window_count_of(terms);
+  settings.end_of = [terms](std::uint64_t window) { return end_of_window(terms, window); };
   settings.balance_windows = terms.balance_windows;
   settings.keys = thrusts();
   settings.goals = goal_rules(terms.window);
   settings.bat_count = has_keys() ? 0 : start_.player_count();
+  settings.takes_latecomers = part_options.takes_latecomers;
   settings.seats_of = [this](const peer::Player& player) { return seats(player); };
+  // Views and updates are in order with claims and handovers alone.
+  settings.keeps_to_neighbours = part_options.observer == nullptr;
   if (part_options.observer != nullptr) {
     settings.hooks.when_played = [&part_options] { part_options.observer->when_played(); };
     settings.hooks.when_told = [&part_options] { part_options.observer->when_told(); };
@@ -279,7 +287,12 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
   // A copy: the list grows while a newcomer waits to be admitted.
   const PeerInfo self = peer_infos[number];  // NOLINT(performance-unnecessary-copy-initialization)
   if (part_options.members.empty()) settings.players = players(terms, peer_infos);
+  settings.is_stopped = part_options.is_stopped;
   std::optional<peer::Session> made;
+  if (part_options.participant != nullptr)
+    settings.when_committed = [&] {
+      if (made) part_options.participant->after_stretch(*made);
+    };
   if (part_options.members.empty())
     made.emplace(
         start_.world(),
@@ -325,7 +338,7 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
   part.lost = session.lost();
   part.time = session.peer().now();
   part.owned = session.peer().owned().size(), part.ghosts = session.peer().ghosts().size(),
-  part.halo = session.peer().halo();
+  part.halo = session.peer().halos().own();
   part.presses = crowd.presses();
   return part;
 }
@@ -348,7 +361,7 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
 void SharedGame::end(peer::Session& session, PlayedPart& part) const {
   std::vector<peer::Handover> parts = session.end();
   if (session.has_left()) return;
-  const physics::World& own = session.peer().world();
+  const physics::PartWorld& own = session.peer().world();
   const auto world = peer::hash_of_whole(own.spec(), own.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");
   part.result_bytes = measured(parts[session.peer().number()]) * (session.members().size() - 1);

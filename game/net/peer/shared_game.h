@@ -43,6 +43,8 @@ class WindowParticipant {
   virtual void before_window(peer::Session&) {}
   /// A window is final, and the next one prepared.
   virtual void after_window(const peer::Session&) {}
+  /// The same, before it, of each stretch of a window that is cut where a puck comes back.
+  virtual void after_stretch(const peer::Session&) {}
 };
 
 /// An observer of a session's windows while they are played.
@@ -75,7 +77,15 @@ struct PartOptions {
   std::function<void()> when_taken{};  ///< the start is no longer needed: SharedGame::forget_start
                                        ///< may be called
   WindowObserver* observer = nullptr;
+  std::function<bool(std::uint64_t)> is_stopped{};  ///< as peer::SessionSettings'
+  bool takes_latecomers = false;  ///< the participant seats players while others play
 };
+
+/// How many windows the game has; the last one ends at its end, whatever the length of the others.
+std::uint64_t window_count_of(const Terms& terms);
+/// The end of the `window`th [s], counted from 1; of 0, the start. One after the last, which is
+/// prepared and never played, ends a window later.
+double end_of_window(const Terms& terms, std::uint64_t window);
 
 /// Equal for all peers with the same scene and keys.
 class SharedGame {
@@ -89,6 +99,8 @@ class SharedGame {
   /// True if all keys are known before the start; then no player can be live.
   bool has_keys() const { return !keys_.empty(); }
   const Scene& scene() const { return scene_; }
+  /// The widest half of a body's bounding box [m].
+  double extent_max() const { return extent_max_; }
   /// The keys that all know.
   const std::vector<InputEvent>& keys() const { return keys_; }
   peer::Cuts cuts(peer::PeerNumber peer_count) const;

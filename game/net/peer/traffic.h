@@ -11,10 +11,11 @@ namespace rink::game {
 /// `halo`: states that are handed over at a window's end. `claims`, `agreement`: the proof of a
 /// window, and the verdicts on it. `interest`: players' views. `updates`: states of bodies beyond
 /// the halo. `keys`: key presses on their way to the bat's owner, and how many have taken effect.
-enum class Traffic : std::uint8_t { halo, claims, agreement, interest, updates, keys };
-inline constexpr std::size_t traffic_count = 6;
+/// `standby`: records and snapshots for the peer that keeps a copy of the part.
+enum class Traffic : std::uint8_t { halo, claims, agreement, interest, updates, keys, standby };
+inline constexpr std::size_t traffic_count = 7;
 inline constexpr std::array<const char*, traffic_count> traffic_names{
-    "halo", "claims", "agreement", "interest", "updates", "keys"};
+    "halo", "claims", "agreement", "interest", "updates", "keys", "standby"};
 
 inline Traffic traffic_of(peer::Subject about) {
   switch (about) {

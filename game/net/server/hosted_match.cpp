@@ -16,37 +16,37 @@ HostedMatch::HostedMatch(const Hosting& hosting, const Scene& scene)
 }
 
 bool HostedMatch::advance(double now_s) {
-  flow_.advance(now_s);
-  return flow_.state().number != number_;
+  if (!led_) flow_.advance(now_s);
+  return present().number != number_;
 }
 
 Game HostedMatch::begin(const Game& last) {
   is_recorded_ = false;
-  number_ = flow_.state().number;
+  number_ = present().number;
   earlier_s_ += last.now();
   return Game(scene_);
 }
 
 double HostedMatch::goal(double now_s, double played) const {
-  if (flow_.state().phase == MatchPhase::countdown) return played;
+  if (present().phase == MatchPhase::countdown) return played;
   const double now = simulated(now_s);
-  return std::max(played, flow_.runs() ? last_on(tick_grid, now) : now);
+  return std::max(played, present().phase == MatchPhase::playing ? last_on(tick_grid, now) : now);
 }
 
 void HostedMatch::judge(const Game& game) {
-  if (!flow_.runs() || !game.is_over()) return;
+  if (led_ || !flow_.runs() || !game.is_over()) return;
   const MatchState& match = flow_.state();
   flow_.win(game.score().left > game.score().right ? Team::left : Team::right,
             match.clock_real_s + game.now() - match.clock_simulated_s);
 }
 
 bool HostedMatch::are_keys_felt() const {
-  const MatchPhase phase = flow_.state().phase;
+  const MatchPhase phase = present().phase;
   return phase != MatchPhase::waiting && phase != MatchPhase::over;
 }
 
 MatchState HostedMatch::state() const {
-  MatchState state = flow_.state();
+  MatchState state = present();
   state.is_unrecorded = is_unrecorded_;
   return state;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,16 @@ class HostedMatch {
   /// There must be no match_objection() to the scene (asserted).
   HostedMatch(const Hosting& hosting, const Scene& scene);
 
-  void enter(std::uint32_t player, double now_s) { flow_.enter(player, now_s); }
-  void leave(std::uint32_t player, double now_s) { flow_.leave(player, now_s); }
+  /// Elsewhere the rules are kept to, and the match stands so: what happens here has no effect on
+  /// it from now on.
+  void follow(const MatchState& state) { led_ = state; }
+
+  void enter(std::uint32_t player, double now_s) {
+    if (!led_) flow_.enter(player, now_s);
+  }
+  void leave(std::uint32_t player, double now_s) {
+    if (!led_) flow_.leave(player, now_s);
+  }
   void pause(bool is_wanted, double now_s) { flow_.pause(is_wanted, now_s); }
   void ask_rematch(std::uint32_t player, double now_s) { flow_.ask_rematch(player, now_s); }
 
@@ -46,9 +55,9 @@ class HostedMatch {
 
   /// Simulated time as players use it [s]; a countdown's end is predicted, so that keys that are
   /// stamped for the first instants of play are not late.
-  double simulated(double now_s) const { return simulated_at(flow_.state(), now_s); }
+  double simulated(double now_s) const { return simulated_at(present(), now_s); }
   bool are_keys_felt() const;
-  bool is_over() const { return flow_.state().phase == MatchPhase::over; }
+  bool is_over() const { return present().phase == MatchPhase::over; }
   /// The state to publish to players.
   MatchState state() const;
   /// Simulated time of the matches before this one [s].
@@ -65,10 +74,13 @@ class HostedMatch {
   void set_unrecorded(bool is_unrecorded) { is_unrecorded_ = is_unrecorded; }
 
  private:
+  const MatchState& present() const { return led_ ? *led_ : flow_.state(); }
+
   Hosting hosting_;
   Scene scene_;
   MatchFlow flow_;
-  std::uint32_t number_ = 0;  ///< of the match that was begun last
+  std::optional<MatchState> led_;  ///< instead of the flow's, by another
+  std::uint32_t number_ = 0;       ///< of the match that was begun last
   double earlier_s_ = 0.0;
   std::vector<KeyLog> finished_;
   bool is_recorded_ = false;    ///< the present match

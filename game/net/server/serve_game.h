@@ -20,7 +20,8 @@ struct ServedGame {
       replay;  ///< that moves the bats instead of the players' keys
   std::vector<std::uint8_t>
       state;  ///< the saved game to begin from, as read; empty: the scene's beginning
-  std::optional<Game> begun;  ///< the state as a game
+  std::optional<Game> begun;     ///< the state as a game
+  SharedPlay* shared = nullptr;  ///< what plays it together with other servers, if any does
 };
 
 /// Throws SceneError naming the file that cannot be read or does not fit the scene.

@@ -13,12 +13,39 @@ namespace rink::game {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+std::uint64_t kernel_segments(const rti::TransportCounters& counters) {
+  return counters.kernel_segments_sent.value_or(counters.segments_sent);
+}
+
+/// Before its first window a node has sent nothing.
+void add_sent_to_nodes(Json& report, const std::vector<rti::TransportCounters>& begin,
+                       const std::vector<rti::TransportCounters>& end) {
+  for (std::size_t to = 0; to < end.size(); ++to) {
+    const rti::TransportCounters first = to < begin.size() ? begin[to] : rti::TransportCounters{};
+    const rti::TransportCounters& last = end[to];
+    report[report::node_bytes_sent.key].push_back(last.bytes_sent - first.bytes_sent);
+    report[report::node_segments_sent.key].push_back(last.segments_sent - first.segments_sent);
+    report[report::node_acknowledgements_sent.key].push_back(last.acknowledgements_sent -
+                                                             first.acknowledgements_sent);
+    report[report::node_kernel_segments_sent.key].push_back(kernel_segments(last) -
+                                                            kernel_segments(first));
+  }
+}
+
+}  // namespace
+
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients) {
   const im::Filter& filter = serving.execution().filter();
   std::vector<im::StageCount> stages;
   filter.list_counts(stages);
-  return {serving.execution().counters(), clients, filter.counters(), std::move(stages),
-          serving.server().game().world().counters()};
+  return {serving.execution().counters(),
+          clients,
+          filter.counters(),
+          std::move(stages),
+          serving.server().game().world().counters(),
+          {}};
 }
 
 Json counted_report(const Serving& serving, const ServingCounts& first, const ServingCounts& last) {
@@ -60,11 +87,10 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
       {report::keys_over_limit, server.keys().counters().over_limit}};
   report[report::acknowledgements_sent.key] =
       last.transport.acknowledgements_sent - first.transport.acknowledgements_sent;
-  const auto segments = [](const rti::TransportCounters& counters) {
-    return counters.kernel_segments_sent.value_or(counters.segments_sent);
-  };
   report[report::kernel_segments_sent.key] =
-      segments(last.transport) - segments(first.transport);  // without a kernel the own count
+      kernel_segments(last.transport) -
+      kernel_segments(first.transport);  // without a kernel the own count
+  add_sent_to_nodes(report, first.to_nodes, last.to_nodes);
   // Stages are in the order of the expression; two of a kind have an entry each.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];

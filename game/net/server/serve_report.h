@@ -15,12 +15,13 @@ struct ServingCounts {
   im::FilterCounters filter;
   std::vector<im::StageCount> stages;  ///< the figures of the filter's stages
   physics::Counters physics;
+  std::vector<rti::TransportCounters> to_nodes{};  ///< of a node: what it sent each, by number
 };
 
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients);
 
 /// The part of a server's report that is independent of clocks: the state of the game, and counts
-/// from `begin` to `end`.
+/// from `begin` to `end`; of a node also what it sent the others.
 nlohmann::ordered_json counted_report(const Serving& serving, const ServingCounts& begin,
                                       const ServingCounts& end);
 

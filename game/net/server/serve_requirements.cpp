@@ -51,14 +51,34 @@ void require_always(const ServeOptions& options) {
                              " or always");
 }
 
+/// Throws if other options ask for what nodes do not do.
+void require_node(const ServeOptions& options) {
+  if (!is_node(options)) {
+    if (!options.node_listen.empty())
+      throw std::runtime_error("--node-listen: expected --nodes or --join beside it");
+    return;
+  }
+  if (options.pace != "realtime" || options.is_time_managed || !options.keys.empty() ||
+      !options.from_state.empty() || !options.trace.empty() || options.threads > 1)
+    throw std::runtime_error(
+        "--nodes, --join, --transport mpi: nodes play their clients' keys in real time from the "
+        "scene's beginning: --pace synchronous, --time-management, --keys, --from-state, "
+        "--evidence and --threads can't be given with them");
+  if (options.is_rank && !options.hosted.empty())
+    throw std::runtime_error("--transport mpi: expected no hosted match, which --nodes can play");
+  if (options.join.empty() && options.hosted.empty() && options.duration_s == 0.0)
+    throw std::runtime_error(
+        "--nodes, --transport mpi: expected a --duration above 0, at which all end together");
+}
+
 /// Throws if other options need a game from the scene's beginning.
 void require_beginning(const ServeOptions& options) {
   if (options.from_state.empty()) return;
   if (!options.hosted.empty() || options.pace != "realtime" || options.is_time_managed ||
-      !options.record.empty() || options.threads > 1)
+      !options.record.empty())
     throw std::runtime_error(
-        "--from-state: a hosted match, --pace synchronous, --time-management, --record and "
-        "--threads begin with the scene and can't be given with it");
+        "--from-state: a hosted match, --pace synchronous, --time-management and --record begin "
+        "with the scene and can't be given with it");
 }
 
 }  // namespace
@@ -104,10 +124,11 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   require_cells(options);
   require_always(options);
   require_beginning(options);
+  require_node(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error(
         "--spread staggers writes to streams in real time: --pace synchronous and --transport "
-        "udp can't be given with it");
+        "udp or mpi can't be given with it");
   if (!options.trace.empty() && options.duration_s == 0.0)
     throw std::runtime_error(
         "--evidence: what is to be sampled is drawn beforehand; it needs a --duration above 0");

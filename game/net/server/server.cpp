@@ -5,18 +5,62 @@
 #include <cassert>
 #include <cmath>
 
+#include "game/control/game_state.h"
+#include "game/model/state_hash.h"
 #include "game/net/interest_codec.h"
 #include "game/replication/names.h"
 #include "rti/time/federate_clock.h"
 
 namespace rink::game {
+namespace {
+
+/// Shows all windows that are final and end by `until` [s].
+void follow(SharedPlay& shared, double until, Game& game, KeyIntake& keys, Publisher& publisher) {
+  while (const std::optional<ShownWindow> window = shared.show_next(until, game)) {
+    for (const EntityId entity : window->left) publisher.hide(entity);
+    for (const EntityId entity : window->told) publisher.show(entity);
+    for (const InputEvent& key : window->keys) {
+      keys.feel_next(key.player);
+      keys.record(key);
+    }
+  }
+  keys.feel_unsubmitted();
+}
+
+/// By which the server of a shared game knows a player that comes back, perhaps at another server.
+std::uint64_t token_of(std::string_view name) {
+  StateHash hash;
+  for (const char letter : name) hash.add(std::uint64_t{static_cast<unsigned char>(letter)});
+  return hash.value();
+}
+
+struct Answered {
+  rti::FederateHandle federate;
+  std::optional<std::uint32_t> player;
+};
+
+/// The next player who has asked for a bat and is still here. The bat of one who has gone is given
+/// back.
+std::optional<Answered> next_answered(SharedPlay& shared, Seats& seats) {
+  while (const std::optional<SharedPlay::SeatAnswer> answer = shared.next_seat()) {
+    const std::optional<rti::FederateHandle> federate = seats.take_waiting(answer->token);
+    if (federate && answer->player) seats.open(*answer->player);
+    if (federate) return Answered{*federate, answer->player};
+    if (answer->player) shared.leave_seat(*answer->player, answer->token);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings,
                std::function<double()> now)
     : model_(fom),
       now_(std::move(now)),
-      game_(settings.begun ? settings.begun->copy() : Game(scene)),
+      game_(settings.state.empty() ? Game(scene)
+                                   : game_in_state(settings.state, scene, "ServerSettings")),
       is_replay_(settings.replay.has_value()),
+      shared_(settings.shared),
       policy_(make_update_policy(settings.policy, {.threshold = settings.threshold})),
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this),
@@ -29,12 +73,16 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
                .tick_s = settings.tick_s,
                .has_whole_ticks = settings.is_time_managed}),
       always_relevant_(settings.always_relevant.value_or(relevant_kinds_of(scene))) {
-  assert(!settings.hosting || (!is_replay_ && !settings.is_time_managed && !settings.begun));
+  assert(!settings.hosting || (!is_replay_ && !settings.is_time_managed && settings.state.empty()));
+  assert(!shared_ || (!is_replay_ && settings.state.empty() && !settings.is_synchronous &&
+                      !settings.is_time_managed));
+  if (shared_) seats_.keep_to(shared_->first_player(), shared_->player_count());
   if (settings.hosting) hosted_.emplace(*settings.hosting, scene);
+  if (hosted_ && shared_) hosted_->follow(shared_->match()->state());
   assert(policy_ && "the command line is checked against update_policy_names()");
   if (is_replay_)
     for (const InputEvent& event : *settings.replay)
-      if (!settings.begun || event.time > game_.now()) submit(event);
+      if (settings.state.empty() || event.time > game_.now()) submit(event);
   ambassador_.join(settings.federation, "server", "server");
 }
 
@@ -91,7 +139,14 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
                              std::string_view type) {
   if (type != player_federate_type) return;
   const std::optional<std::uint32_t> player = seats_.free(name);
-  if (!player) return offer_seat(federate, {});
+  if (!shared_ || (player && !shared_->has_begun())) return seat_player(federate, player);
+  seats_.await(federate, token_of(name));
+  shared_->ask_seat({.token = token_of(name), .player = seats_.named(name)});
+}
+
+/// Without a bat it is refused.
+void Server::seat_player(rti::FederateHandle federate, std::optional<std::uint32_t> player) {
+  if (!player) return offer_seat(federate, SeatOffer{});
   const double now = now_();
   if (hosted_) hosted_->enter(*player, now);
   else if (!is_replay_ && (!game_.bat(*player) || seats_.is_leaving(*player)))
@@ -100,28 +155,34 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
   keys_.enter(*player, now);
 }
 
-/// In a hosted match a bat stays when its player leaves, without pressed keys.
-void Server::federate_resigned(rti::FederateHandle federate, std::string_view, std::string_view,
-                               rti::ResignReason reason) {
+/// In a hosted match, or a shared game, a bat stays when its player leaves, without pressed keys.
+void Server::federate_resigned(rti::FederateHandle federate, std::string_view name,
+                               std::string_view, rti::ResignReason reason) {
   if (reason != rti::ResignReason::resigned) ++counters_.federates_lost;
+  seats_.forget_waiting(federate);
   const Seats::Seat* const seat = seats_.find(federate);
   if (seat == nullptr) return;
   const std::uint32_t player = seat->player;
   const double now = now_(), simulated = simulated_at_clock(now);
   keys_.leave(player);
-  if (hosted_) {
-    if (hosted_->are_keys_felt())
+  if (hosted_ || shared_) {
+    if (!hosted_ || hosted_->are_keys_felt())
       for (const InputEvent& event : keys_.release(player, simulated)) submit(event);
-    hosted_->leave(player, now);
+    if (hosted_) hosted_->leave(player, now);
   } else if (!is_replay_) {
     submit({.time = simulated, .player = player, .kind = InputKind::leave});
   }
-  seats_.leave(federate, !hosted_ && !is_replay_);
+  seats_.leave(federate, !hosted_ && !is_replay_ && !shared_);
+  if (shared_ && shared_->has_begun()) shared_->leave_seat(player, token_of(name));
 }
 
 void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters,
                                  rti::FederateHandle sender, const rti::Stamp& stamp) {
-  if (board_ && interaction == model_.ping) return board_->answer(sender, stamp.tag, now_());
+  if (board_ && interaction == model_.ping) {
+    // Nodes feel a key within two windows at the earliest: so far ahead are their players' clocks.
+    const double lead_s = shared_ ? 2.0 * turns_.tick_s() : 0.0;
+    return board_->answer(sender, stamp.tag, now_() + lead_s);
+  }
   const Seats::Seat* const seat = seats_.find(sender);
   if (interaction == model_.inspect) {
     Inspection wanted;
@@ -132,10 +193,13 @@ void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::B
   } else if (interaction == model_.update) {
     seats_.end_turn(sender);
   } else if (interaction == model_.rematch) {
-    if (hosted_) hosted_->ask_rematch(seat->player, now_());
+    if (hosted_ && shared_) shared_->match()->ask_rematch(seat->player);
+    else if (hosted_) hosted_->ask_rematch(seat->player, now_());
   } else if (interaction == model_.pause) {
     PauseWish wish;
-    if (hosted_ && decode(parameters, wish)) hosted_->pause(wish.is_wanted != 0, now_());
+    if (!hosted_ || !decode(parameters, wish)) return;
+    if (shared_) shared_->match()->pause(wish.is_wanted != 0);
+    else hosted_->pause(wish.is_wanted != 0, now_());
   } else {
     receive_key(seat->player, interaction == model_.key_down, parameters, stamp.time);
   }
@@ -154,10 +218,16 @@ void Server::receive_key(std::uint32_t player, bool is_down, rti::Bytes paramete
 }
 
 double Server::simulate(double until) {
-  const bool has_arrived = budget_.advance(game_, until);
+  const bool has_arrived = shared_ != nullptr || budget_.advance(game_, until);
   turns_.stepped(has_arrived);
-  // Keys of the very instant in which it was cut short are not felt yet.
-  keys_.feel_until(has_arrived ? until : std::nextafter(game_.now(), -1.0));
+  // Alone: keys of the very instant in which it was cut short are not felt yet.
+  if (shared_) {
+    follow(*shared_, until, game_, keys_, *publisher_);
+    while (const std::optional<Answered> next = next_answered(*shared_, seats_))
+      seat_player(next->federate, next->player);
+  } else {
+    keys_.feel_until(has_arrived ? until : std::nextafter(game_.now(), -1.0));
+  }
   seats_.begin_turns();
   if (hosted_) hosted_->judge(game_);
   return game_.now();
@@ -170,17 +240,19 @@ bool Server::publish(const rti::Stamp& stamp) {
   if (turns_.take_step()) send_pace({}, stamp.time);
   ask_for_turns();
   seats_.offer([this](rti::FederateHandle federate, std::uint32_t player) {
-    return offer_bat(federate, player);
+    return offer_seat(federate, player);
   });
   return true;
 }
 
 /// A player is sent its seat once the bat is in play; one that comes back to a running game may
-/// have to wait for a free place.
-bool Server::offer_bat(rti::FederateHandle federate, std::uint32_t player) {
+/// have to wait for a free place. In a shared game the bat may never have moved, so that nothing of
+/// it shows a latecomer that the game runs.
+bool Server::offer_seat(rti::FederateHandle federate, std::uint32_t player) {
   const std::optional<EntityId> bat = game_.bat(player);
   if (!bat) return false;
-  if (turns_.concerns_players()) send_pace(federate, game_.now());
+  if (turns_.concerns_players() || (shared_ && shared_->has_begun()))
+    send_pace(federate, game_.now());
   offer_seat(federate, {.bat = player, .position = rounded(game_.position(*bat))});
   return true;
 }

@@ -18,6 +18,7 @@
 #include "game/net/server/players/key_intake.h"
 #include "game/net/server/players/seats.h"
 #include "game/net/server/players/server_turns.h"
+#include "game/net/server/shared_play.h"
 #include "game/net/server/tick_budget.h"
 #include "game/replication/publisher.h"
 #include "rti/ambassador.h"
@@ -53,9 +54,13 @@ struct ServerSettings {
   /// Events of the physics that are played in time, per simulated second; 0: any (tick_budget.h).
   std::uint64_t events_per_s = 0;
   std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
-  /// A game of the scene from which the server's continues instead of beginning (a copy, made at
-  /// once), with the keys of `replay` after its now(). Not with `hosting` (asserted).
-  const Game* begun = nullptr;
+  /// A saved game of the scene (asserted) from which the server's continues instead of beginning,
+  /// with the keys of `replay` after its now(); empty: the scene's beginning. Not with `hosting`
+  /// (asserted).
+  std::span<const std::uint8_t> state{};
+  /// What plays the game together with other servers; null: this server alone. Must outlive the
+  /// server. Not with `replay`, `state` or taking turns (asserted).
+  SharedPlay* shared = nullptr;
 };
 
 struct ServerCounters {
@@ -147,16 +152,21 @@ class Server : public rti::FederateAmbassador {
 
   void ask_for_turns();
   void send_pace(std::optional<rti::FederateHandle> federate, double now);
+  void seat_player(rti::FederateHandle federate, std::optional<std::uint32_t> player);
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
-  bool offer_bat(rti::FederateHandle federate, std::uint32_t player);
+  bool offer_seat(rti::FederateHandle federate, std::uint32_t player);
   void receive_key(std::uint32_t player, bool is_down, rti::Bytes parameters, double wanted_s);
   double simulated_at_clock(double now) const;
-  void submit(const InputEvent& event) { keys_.record(game_.submit(event)); }
+  void submit(const InputEvent& event) {
+    if (shared_ == nullptr) keys_.record(game_.submit(event));
+    else shared_->press(event.player, event.key, event.kind == InputKind::key_down, event.time);
+  }
 
   ObjectModel model_;
   std::function<double()> now_;
   Game game_;
   bool is_replay_;
+  SharedPlay* shared_;
   std::unique_ptr<UpdatePolicy> policy_;
   RegionSweep sweep_;
   rti::Ambassador ambassador_;

@@ -38,6 +38,7 @@ double Server::simulated_at_clock(double now) const {
 
 double Server::follow_match(double real_s) {
   assert(hosted_);
+  if (shared_) hosted_->follow(shared_->match()->state());
   if (hosted_->advance(real_s)) {
     finish_record();  // of one that was given up
     keys_.begin();
@@ -45,8 +46,9 @@ double Server::follow_match(double real_s) {
     game_ = hosted_->begin(game_);
     budget_.begin();
   }
-  if (hosted_->is_over()) finish_record();
-  return hosted_->goal(real_s, game_.now());
+  if (hosted_->is_over() && (!shared_ || shared_->has_shown_all())) finish_record();
+  const bool is_ahead = shared_ != nullptr && hosted_->state().phase == MatchPhase::playing;
+  return hosted_->goal(real_s, game_.now()) + (is_ahead ? turns_.tick_s() : 0.0);
 }
 
 void Server::finish_record() {

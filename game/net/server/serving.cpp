@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "game/net/server/interest_report.h"
 #include "game/net/server/push_filter_hints.h"
@@ -40,7 +42,8 @@ Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& 
       execution_(fom, federation),
       host_(execution_),
       server_(fom, scene, server, std::move(clocks.simulated_now)),
-      link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))) {
+      link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))),
+      shared_(server.shared) {
   execution_.advance_clock(now_s_());  // before any connection: silence counts from then on
   links_.add(link_);
   host_.add(hub_);
@@ -92,11 +95,25 @@ bool Serving::send(double simulated_s, double due_s, TickCosts& costs) {
     push_filter_hints(server_, execution_);
     watch.add_to(costs.send_s);
     host_.match();
+    if (shared_ != nullptr) look_around();
     watch.add_to(costs.filter_s);
   }
   host_.flush();
   watch.add_to(costs.send_s);
   return is_published;
+}
+
+/// The others tell of what the clients look at. Who has no region, as a watcher, sees everything.
+void Serving::look_around() {
+  std::vector<rti::SubscribedRegion> subscribed;
+  execution_.list_subscribed_regions(subscribed);
+  std::vector<im::Region> regions;
+  std::set<std::uint32_t> looking{server_.ambassador().federate().value};
+  for (const rti::SubscribedRegion& each : subscribed) {
+    regions.push_back(each.bounds);
+    looking.insert(each.federate.value);
+  }
+  shared_->look(regions, looking.size() < execution_.federate_count());
 }
 
 rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,

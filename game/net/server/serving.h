@@ -64,6 +64,8 @@ class Serving {
   bool send(double simulated_s, double due_s, TickCosts& costs);
 
  private:
+  void look_around();
+
   Clock now_s_;
   rti::InProcessNetwork network_;
   rti::InProcessEndpoint hub_{network_}, endpoint_{network_};
@@ -73,6 +75,7 @@ class Serving {
   rti::FederateLink link_;
   rti::FederateLinks links_;
   std::optional<ServerRecorder> recorder_;
+  SharedPlay* shared_;  ///< null: this server alone plays
 };
 
 /// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size`

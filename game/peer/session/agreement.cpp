@@ -15,6 +15,11 @@ bool lists(const std::vector<PeerNumber>& peers, PeerNumber peer) {
   return std::find(peers.begin(), peers.end(), peer) != peers.end();
 }
 
+bool has_token(const std::vector<Candidate>& all, std::uint64_t token) {
+  return std::ranges::any_of(all,
+                             [&](const Candidate& one) { return one.newcomer.token == token; });
+}
+
 /// True if a peer will be there, and have a zone.
 bool stays(const State& next, PeerNumber peer) { return next.has(peer) && next.cuts.has(peer); }
 
@@ -161,7 +166,10 @@ void Agreement::add_candidates(const Step& step) const {
   for (const PeerNumber sponsor : now.members) {
     if (!stays(next, sponsor)) continue;
     for (const Newcomer& newcomer : verdicts.of(sponsor).admission.asking) {
-      if (objection(next, newcomer)) continue;
+      // A token stands for one newcomer, whoever repeats it.
+      if (has_token(next.candidates, newcomer.token) || has_token(next.admitted, newcomer.token) ||
+          objection(next, newcomer))
+        continue;
       next.candidates.push_back({next.next_number++, sponsor, next.bats_taken, newcomer});
       next.bats_taken += newcomer.bat_count;
       assert(next.next_number <= numbers_max && next.candidates.size() < members_max);

@@ -5,19 +5,75 @@
 #include <cassert>
 #include <utility>
 
+#include "im/basics/fnv_hash.h"
+
 namespace rink::peer {
+
+namespace {
+
+std::uint32_t result_of(const std::vector<Handover>& parts) {
+  Fnv64 hash;
+  for (const Handover& part : parts)
+    for (const std::uint8_t byte : written(part)) hash.add(byte);
+  return static_cast<std::uint32_t>(hash.value() ^ hash.value() >> 32);
+}
+
+}  // namespace
 
 Inbox::Inbox(const SessionSettings& settings, Validator validator, Mail& mail, bool is_newcomer)
     : settings_(settings),
       validator_(std::move(validator)),
       mail_(mail),
+      losses_(settings.number),
       is_newcomer_(is_newcomer) {}
 
 Handover Inbox::final_handover(PeerNumber from, const State& now) {
   Handover part = received<Handover>(from, now);
-  if (const std::string fault = validator_.fault_of(part.keys); !fault.empty())
+  if (const std::string fault = validator_.fault_of_last(part, now.time); !fault.empty())
     give_up(from, fault);
   return part;
+}
+
+/// Whoever tells one peer another end than the next would leave two results otherwise. Who misses
+/// one of the others compares with all that are left: no two of them may end with different ones.
+void Inbox::confirm(const std::vector<Handover>& parts, const State& now) {
+  Handover result;
+  result.window = result_of(parts);
+  confirmed_.clear();
+  for (const PeerNumber to : now.members)
+    if (to != settings_.number) mail_.send(to, written(result));
+  for (const PeerNumber from : now.members)
+    if (from != settings_.number) await_result(from, result.window, now);
+  for (const PeerNumber peer : now.members)
+    if (peer != settings_.number && !has_confirmed(peer)) throw LossTold(peer, losses_.last());
+}
+
+bool Inbox::is_confirmed(const State& now) const {
+  return std::ranges::all_of(now.members, [&](PeerNumber peer) {
+    return peer == settings_.number || has_confirmed(peer) || losses_.is_away(peer);
+  });
+}
+
+/// Who tells of losses instead recovers, and waits for this one to do so, too.
+void Inbox::await_result(PeerNumber from, std::uint32_t result, const State& now) {
+  while (!losses_.is_away(from)) try {
+      const std::vector<std::uint8_t> bytes = mail_.receive(from);
+      Handover message;
+      if (!read(bytes, message)) {
+        learns_of_loss(from, bytes, now), count_word(from);
+        if (must_recover_) throw LossTold(from, losses_.last());
+        continue;
+      }
+      if (message.window != result)
+        throw ProtocolError("peer " + std::to_string(from) +
+                            " ended with another result than this one: neither counts");
+      confirmed_.push_back(from);
+      return;
+    } catch (const LossTold&) {
+      throw;
+    } catch (const PeerGone& gone) {
+      note_gone(gone.peer(), gone.what(), gone.has_finished());
+    }
 }
 
 bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes, const State& now) {
@@ -25,34 +81,71 @@ bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes,
   if (!settings_.is_replicated || !read(bytes, loss)) give_up(from, "sent what is no message");
   std::string fault = validator_.fault_of(loss);
   if (fault.empty()) fault = Losses::fault_of(loss, now);
+  if (fault.empty() && Marks::differ(marks_.told(now, before_ ? *before_ : now), loss.marks))
+    fault = "has told this one something else than the others";
   if (!fault.empty()) give_up(from, fault);
-  if (State::is_in(loss.gone, settings_.number))
+  const bool is_missed =
+      std::ranges::find(loss.questions, Question{settings_.number, Answer::missed}) !=
+      loss.questions.end();
+  // Of two peers neither has anybody else to ask.
+  if (State::is_in(loss.gone, settings_.number) || (is_missed && now.members.size() <= 2))
     halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
-  losses_.hear(from, loss);
-  bool is_news = false;
-  for (const PeerNumber peer : loss.gone) {
-    const bool is_new = !losses_.is_gone(peer);
-    is_news = is_news || is_new;
-    if (is_new)
-      note_gone(peer, "peer " + std::to_string(peer) + " is gone, according to peer " +
-                          std::to_string(from));
-    if (State::is_in(loss.finished, peer)) note_gone(peer, {}, true);
-  }
+  const bool is_news = losses_.is_news(from, loss);
+  for (const PeerNumber peer : loss.gone)
+    if (const bool has_finished = State::is_in(loss.finished, peer);
+        has_finished || !losses_.is_gone(peer))
+      lose(peer,
+           "peer " + std::to_string(peer) + " is gone, according to peer " + std::to_string(from),
+           has_finished);
+  losses_.hear(from, std::move(loss));
+  must_recover_ = must_recover_ || is_news;
   return is_news;
+}
+
+void Inbox::lose(PeerNumber peer, const std::string& what, bool has_finished) {
+  const bool is_parted = losses_.is_away(peer);
+  must_recover_ = must_recover_ || !losses_.is_gone(peer);
+  losses_.note(peer, what, has_finished);
+  if (!is_parted) mail_.part(peer, true);
+}
+
+void Inbox::tell(const State& now) {
+  Loss loss = losses_.told(now);
+  loss.marks = marks_.told(now, before_ ? *before_ : now);
+  const std::vector<std::uint8_t> bytes = written(std::move(loss));
+  for (const PeerNumber to : now.members) {
+    if (to == settings_.number || losses_.is_away(to) || told_.at(to) == bytes) continue;
+    mail_.send(to, bytes);
+    told_[to] = bytes;
+  }
+}
+
+bool Inbox::has_settled(const State& now) {
+  const std::vector<Losses::Sentence> sentences = losses_.settle(now);
+  for (const auto& [peer, what] : sentences) {
+    if (peer == settings_.number)
+      halt(
+          "most others hear what this one does not, or do not hear it: it halts, others may go "
+          "on");
+    lose(peer, what, false);
+  }
+  return sentences.empty() && !losses_.has_missed();
 }
 
 void Inbox::note_gone(PeerNumber peer, const std::string& what, bool has_finished) {
   assert(peer != settings_.number);
   if (!settings_.is_replicated) throw Halt(what);
   must_recover_ = true;
-  if (losses_.note(peer, what, has_finished)) mail_.part(peer, true);
+  if (has_finished) lose(peer, what, true);
+  else if (losses_.miss(peer, what)) mail_.part(peer, true);
 }
 
-void Inbox::give_up(PeerNumber peer, const std::string& fault) const {
+void Inbox::give_up(PeerNumber peer, const std::string& fault) {
   assert(peer != settings_.number && !fault.empty());
   const std::string what = "peer " + std::to_string(peer) + " " + fault;
   if (!settings_.is_replicated) throw ProtocolError(what);
-  throw PeerGone(peer, false, what);
+  lose(peer, what, false);
+  throw LossTold(peer, what);
 }
 
 void Inbox::halt(const std::string& what) const {
@@ -63,8 +156,9 @@ void Inbox::halt(const std::string& what) const {
 void Inbox::begin(const State& now) {
   assert(is_newcomer_);
   losses_.begin(now);
-  must_recover_ =
-      std::ranges::any_of(losses_.gone(), [&](PeerNumber peer) { return now.has(peer); });
+  must_recover_ = losses_.has_missed() || std::ranges::any_of(losses_.gone(), [&](PeerNumber peer) {
+                    return now.has(peer);
+                  });
 }
 
 }  // namespace rink::peer

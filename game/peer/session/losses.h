@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,19 @@ namespace rink::peer {
 
 class Losses {
  public:
+  explicit Losses(PeerNumber own = 0) : own_(own) {}
+
   /// True if the loss is news. `has_finished`: the peer left in good order, which may be learnt
   /// later.
   bool note(PeerNumber peer, const std::string& what, bool has_finished);
   bool is_gone(PeerNumber peer) const { return State::is_in(gone_, peer); }
+  /// The own peer hears nothing more of `peer`; whether that is lost, all decide (`settle`). True
+  /// if it is news.
+  bool miss(PeerNumber peer, const std::string& what);
+  bool misses(PeerNumber peer) const;
+  /// Nothing can be said to it or heard of it.
+  bool is_away(PeerNumber peer) const { return is_gone(peer) || misses(peer); }
+  bool has_missed() const { return !missed_.empty(); }
   /// Sorted, as are those of them that left in good order.
   const std::vector<PeerNumber>& gone() const { return gone_; }
   const std::vector<PeerNumber>& finished() const { return finished_; }
@@ -32,12 +42,20 @@ class Losses {
   void hear(PeerNumber from, Loss told);
   /// Nothing if it has told nothing yet.
   const std::optional<Loss>& heard(PeerNumber from) const;
-  /// True if it knows of the same losses.
-  bool agrees(PeerNumber from) const { return heard(from) && heard(from)->gone == gone_; }
+  /// True if this, told by `from`, has losses or questions that are not known here.
+  bool is_news(PeerNumber from, const Loss& told) const;
+  /// True if it knows of the same losses, and has answered the same questions.
+  bool agrees(PeerNumber from) const;
   /// What there is to tell at this step.
-  Loss told(std::uint64_t step) const {
-    return {.step = step, .gone = gone_, .finished = finished_};
-  }
+  Loss told(const State& now) const;
+  /// A peer to be given up, and why.
+  struct Sentence {
+    PeerNumber peer = 0;
+    std::string what;
+  };
+  /// When all agree: a peer goes that more of the others miss than hear; otherwise those that miss
+  /// it. The questions are answered with that.
+  std::vector<Sentence> settle(const State& now);
   void make_room(PeerNumber slots);
 
   enum class Majority : std::uint8_t { none, doubtful, sure };
@@ -48,9 +66,26 @@ class Losses {
   void check() const;
 
  private:
-  Majority majority_of(std::vector<PeerNumber> voters) const;
+  struct Missed {
+    PeerNumber peer;
+    std::string what;
+  };
+  struct Votes {
+    std::vector<PeerNumber> missing{};
+    std::size_t hearing = 0;
+  };
 
+  Majority majority_of(std::vector<PeerNumber> voters) const;
+  std::vector<PeerNumber> asked() const;
+  static Answer answer_in(const Loss& told, PeerNumber peer);
+  Answer answer(PeerNumber peer, const State& now) const;
+  Answer answer_by(PeerNumber voter, PeerNumber peer, const State& now) const;
+  Votes votes_on(PeerNumber peer, const State& now, std::span<const Sentence> sentences) const;
+  std::string reason(PeerNumber peer) const;
+
+  PeerNumber own_;
   std::vector<PeerNumber> gone_, finished_;
+  std::vector<Missed> missed_;
   std::vector<std::optional<Loss>> heard_;  ///< by peer
   std::string last_;
 };

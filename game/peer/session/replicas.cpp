@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <utility>
+
+#include "game/peer/session/part_change.h"
+#include "game/peer/standby/part_at_start.h"
 
 namespace rink::peer {
 
@@ -17,22 +19,11 @@ std::optional<PeerNumber> Replicas::keeper_of(PeerNumber peer, const State& stat
   return first;
 }
 
-void Replicas::begin(const physics::World& whole, const State& start, const Division& division) {
-  for (const PeerNumber peer : start.members) {
-    if (peer != number_ && !keeps(peer, start)) continue;
-    PartChange part{.step = 0,
-                    .time = 0.0,
-                    .is_whole = true,
-                    .bodies = {},
-                    .gone = {},
-                    .rest_contacts = {},
-                    .keys = {},
-                    .log = {}};
-    for (std::uint32_t body = 0; body < whole.body_count(); ++body)
-      if (division.owner_of(whole.position({body})) == peer)
-        part.bodies.push_back({body, physics::Subdomain::state_in(whole, body)});
-    add(peer, std::move(part));
-  }
+void Replicas::begin(const Start& start, const State& now, double halo, const Validator& scene) {
+  const Division division = now.division();
+  for (const PeerNumber peer : now.members)
+    if (peer != number_ && keeps(peer, now))
+      of(peer).begin(part_at_start(start, division, peer, halo, scene));
 }
 
 void Replicas::make_room(PeerNumber slots) {
@@ -40,14 +31,14 @@ void Replicas::make_room(PeerNumber slots) {
   if (slots > replicas_.size()) replicas_.resize(slots);
 }
 
-bool Replicas::add(PeerNumber peer, PartChange change) {
-  assert(peer < replicas_.size());
-  return replicas_[peer].add(std::move(change));
+void Replicas::rewind(std::uint64_t step) {
+  for (StandbyCopy& replica : replicas_)
+    if (!replica.rewind(step)) replica = {};
 }
 
-void Replicas::rewind(std::uint64_t step) {
-  for (PartReplica& replica : replicas_)
-    if (!replica.rewind(step)) replica = PartReplica();
+void Replicas::drop_others(const State& now, const State& next) {
+  for (PeerNumber peer = 0; peer < replicas_.size(); ++peer)
+    if (peer != number_ && !keeps(peer, now) && !keeps(peer, next)) replicas_[peer] = {};
 }
 
 std::vector<Key> Replicas::log(PeerNumber peer) const {
@@ -72,19 +63,15 @@ std::vector<PeerNumber> Replicas::parts_of(PeerNumber by, const State& now, cons
   return parts;
 }
 
-Handover Replicas::share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to,
+Handover Replicas::share(std::span<const Part> parts, const Division& division, PeerNumber to,
                          double halo) {
   Handover message;
-  for (const PeerNumber peer : parts) {
-    const Part& part = replicas_[peer].part();
-    std::vector<std::uint32_t> bodies;
+  for (const Part& part : parts) {
     for (const auto& [body, state] : part.bodies) {
-      const Box place =
-          Box::around(state.motion().at(part.time).position, state.extent()).grown(1e-6);
-      if (state.flags != 0 || division.is_near(to, place, halo)) bodies.push_back(body);
+      const Box place = Box::around(place_of(state, part.time), state.extent()).grown(1e-6);
+      if (state.flags != 0 || division.is_near(to, place, halo))
+        message.bodies.push_back({body, state});
     }
-    std::sort(bodies.begin(), bodies.end());
-    for (const std::uint32_t body : bodies) message.bodies.push_back({body, part.bodies.at(body)});
     message.rest_contacts.insert(message.rest_contacts.end(), part.rest_contacts.begin(),
                                  part.rest_contacts.end());
     message.keys.insert(message.keys.end(), part.keys.begin(), part.keys.end());

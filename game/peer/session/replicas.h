@@ -1,6 +1,7 @@
 // The parts of other peers that one keeps, so that it can stand in for them, and its own.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,8 +9,10 @@
 
 #include "game/peer/division.h"
 #include "game/peer/session/losses.h"
-#include "game/peer/session/part_replica.h"
 #include "game/peer/session/session_state.h"
+#include "game/peer/standby/standby_copy.h"
+#include "game/peer/start.h"
+#include "game/peer/validation.h"
 
 namespace rink::peer {
 
@@ -22,15 +25,23 @@ class Replicas {
   bool keeps(PeerNumber peer, const State& state) const {
     return keeper_of(peer, state) == number_;
   }
-  /// All peers know the start.
-  void begin(const physics::World& whole, const State& start, const Division& division);
+  /// All peers know the start, `now` then, and how far all look: `halo` [m].
+  void begin(const Start& start, const State& now, double halo, const Validator& scene);
   void make_room(PeerNumber slots);
 
-  /// Adds the next step's change, or a whole part: false, with nothing changed, if it is neither.
-  bool add(PeerNumber peer, PartChange change);
+  StandbyCopy& of(PeerNumber peer) {
+    assert(peer < replicas_.size());
+    return replicas_[peer];
+  }
+  const StandbyCopy& of(PeerNumber peer) const {
+    assert(peer < replicas_.size());
+    return replicas_[peer];
+  }
   /// Goes back to one of the last two steps; parts that have neither are dropped.
   void rewind(std::uint64_t step);
   std::vector<Key> log(PeerNumber peer) const;
+  /// The copies that nobody counts on any more are given up.
+  void drop_others(const State& now, const State& next);
 
   /// The lost peer, if there is one, whose part nobody keeps any more.
   static std::optional<PeerNumber> first_unkept(const State& now, const Losses& losses);
@@ -38,12 +49,12 @@ class Replicas {
   static std::vector<PeerNumber> parts_of(PeerNumber by, const State& now, const Losses& losses);
   /// All that `to`, which looks `halo` [m] far, may need of these parts: bodies in its zones or the
   /// halo, and those that may act at a distance.
-  Handover share(std::span<const PeerNumber> parts, const Division& division, PeerNumber to,
-                 double halo);
+  static Handover share(std::span<const Part> parts, const Division& division, PeerNumber to,
+                        double halo);
 
  private:
   PeerNumber number_;
-  std::vector<PartReplica> replicas_;  ///< by peer
+  std::vector<StandbyCopy> replicas_;  ///< by peer
 };
 
 }  // namespace rink::peer

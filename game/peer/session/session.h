@@ -12,15 +12,17 @@
 #include "game/peer/protocol.h"
 #include "game/peer/session/agreement.h"
 #include "game/peer/session/inbox.h"
-#include "game/peer/session/replicas.h"
 #include "game/peer/session/session_settings.h"
 #include "game/peer/session/session_state.h"
+#include "game/peer/session/standby.h"
+#include "game/peer/start.h"
 
 namespace rink::peer {
 
 struct SessionCounters {
   PeerCounters peer;
   std::uint64_t replica_bytes = 0, recovery_bytes = 0;  ///< sent
+  std::uint64_t replica_snapshots = 0;                  ///< due because a replay was long
   std::uint64_t recoveries = 0;                         ///< completed recoveries
   std::uint64_t shifts = 0;                             ///< of zones, toward balance
   std::uint64_t entry_bytes = 0;                        ///< sent to newcomers
@@ -31,13 +33,13 @@ struct SessionCounters {
 /// step. docs/peer-to-peer.md, "Loss of a peer" and "Joining while others play".
 class Session {
  public:
-  /// `whole` is at its start. `when_taken`, if not empty, is called when `whole` is no longer
-  /// needed and before the own part is allocated, so that its memory can be freed.
-  Session(const physics::World& whole, const Cuts& cuts, SessionSettings settings, Mail& mail,
+  /// `when_taken`, if not empty, is called when `start` is no longer needed and before the own part
+  /// is allocated, so that its memory can be freed.
+  Session(const Start& start, const Cuts& cuts, SessionSettings settings, Mail& mail,
           const std::function<void()>& when_taken = {});
   /// For a newcomer that is a candidate beside these members: waits until it is one of them. Throws
   /// SentAway if it is not admitted, until its first window is over.
-  Session(const physics::World& whole, SessionSettings settings, Mail& mail,
+  Session(const Start& start, SessionSettings settings, Mail& mail,
           std::vector<PeerNumber> members);
 
   /// Plays a window, or recovers and plays one that was undone: then `window` may be unchanged, or
@@ -46,7 +48,10 @@ class Session {
   /// How many windows are final.
   std::uint64_t window() const { return now_.window; }
   std::uint64_t step() const { return now_.step; }
-  bool is_over() const { return has_left_ || agreement_.is_complete(now_); }
+  bool is_over() const {
+    return has_left_ || agreement_.is_complete(now_) ||
+           (settings_.is_stopped && settings_.is_stopped(now_.window));
+  }
   /// The goals, and the pucks to put back, after the last window.
   const Scoring& scoring() const { return now_.scoring; }
 
@@ -58,8 +63,10 @@ class Session {
   /// is the state of one part.
   bool may_have_split() const { return may_have_split_; }
 
-  /// Presses an own player's key, as Peer::press.
+  /// Presses an own player's key, as LivePlayers::press. Of one that goes to the bat's owner ahead
+  /// of the claims (Peer::receive) it only notes that it may have to be pressed again.
   void press(const Observation& seen, const Press& press);
+  void press(const Press& press);
   Peer& peer() { return *peer_; }
   const Peer& peer() const { return *peer_; }
   /// Call it after the last window: returns the bodies and, as keys, the logs of all peers, by
@@ -88,11 +95,13 @@ class Session {
 
   // session.cpp
   template <class Make>
-  void exchange(Make&& make, const std::function<void()>& meanwhile = {});
+  void exchange(const Addressees& addressees, Make&& make,
+                const std::function<void()>& meanwhile = {});
   void play_window();
   void play_stretch();
-  void replicate(const State& next, PartChange change);
+  void log_stretch(const State& next);
   void adopt(State next);
+  std::vector<Handover> last_parts();
 
   // session_joining.cpp
   void announce();
@@ -108,10 +117,9 @@ class Session {
 
   // session_recovery.cpp
   void recover();
-  void agree();
+  bool agree();
   void go_back(PeerNumber as);
   void send_away(const State& state);
-  [[noreturn]] void halt_as_minority() const;
   void rebuild();
   void enter(const State& next, std::span<const Handover> shares);
   void press_again();
@@ -123,10 +131,10 @@ class Session {
   State now_, before_;
   Division division_;
   std::optional<Peer> peer_;
-  Replicas replicas_;       // of the own part, and of those that this peer keeps
-  std::vector<Key> log_;    // of an own part of which nobody keeps a replica
-  std::vector<Sent> sent_;  // of the last windows
   Inbox inbox_;
+  Standby standby_;
+  std::vector<Key> log_;          // of an own part of which nobody keeps a replica
+  std::vector<Sent> sent_;        // of the last windows
   std::vector<Newcomer> asking_;  // here, of whom nothing was decided yet
   bool wishes_to_leave_ = false, has_left_ = false, may_have_split_ = false;
   SessionCounters counters_;

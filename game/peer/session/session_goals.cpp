@@ -48,8 +48,13 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
   for (const PeerNumber to : now_.members)
     if (to != settings_.number) mail_.send(to, written(word));
   std::uint64_t taken = word.taken;
+  std::vector<std::vector<std::uint8_t>> words;
+  const std::vector<std::uint8_t> own = written(word);
   for (const PeerNumber from : now_.members) {
-    if (from == settings_.number) continue;
+    if (from == settings_.number) {
+      words.push_back(own);
+      continue;
+    }
     const auto word_received = inbox_.checked<FaceOffWord>(from, now_, peer_->now());
     if (word_received.puck != word.puck ||
         (!word_received.body.empty() && word_received.body.front().number != word.puck))
@@ -61,8 +66,10 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
     if (!word_received.body.empty() && !may_have)
       inbox_.give_up(from, "sends puck " + std::to_string(word.puck) + ", which it does not own");
     taken |= word_received.taken;
+    words.push_back(written(word_received));
     if (word.body.empty()) word.body = word_received.body;
   }
+  if (settings_.is_replicated) inbox_.note_round(now_, words);
   if (word.body.empty())
     throw ProtocolError("no peer has puck " + std::to_string(word.puck) + ", which is due");
   return taken;

@@ -60,18 +60,19 @@ void Session::greet(const State& next) {
   }
 }
 
-Session::Session(const physics::World& whole, SessionSettings settings, Mail& mail,
+Session::Session(const Start& start, SessionSettings settings, Mail& mail,
                  std::vector<PeerNumber> members)
     : settings_(std::move(settings)),
       mail_(mail),
-      whole_(Whole::of(whole)),
+      whole_(Whole::of(start)),
       agreement_(settings_, whole_),
-      now_{.cuts = Cuts::whole(whole.spec().field)},
+      now_{.cuts = Cuts::whole(start.spec().field)},
       before_(now_),
       division_(now_.division()),
-      replicas_(settings_.number),
-      inbox_(settings_, Validator(whole), mail, true) {
+      inbox_(settings_, Validator(start), mail, true),
+      standby_(settings_, inbox_, mail_) {
   assert(settings_.is_replicated && !members.empty());
+  inbox_.remember(before_);
   enter_late(std::move(members));
 }
 
@@ -124,18 +125,16 @@ void Session::enter_late(std::vector<PeerNumber> members) {
   if (!entry) throw SentAway(inbox_.losses().last());
   now_ = before_ = entry->second.state;
   inbox_.begin(now_);
-  replicas_.make_room(now_.slots), inbox_.make_room(now_.slots);
+  standby_.make_room(now_.slots), inbox_.make_room(now_.slots);
   division_ = now_.division();
   for (const std::vector<Candidate>* all : {&now_.admitted, &now_.candidates})
     for (const Candidate& one : *all)
       if (one.number != settings_.number) mail_.expect(one, false, now_);
   for (const PeerNumber peer : now_.members)
-    if (peer != settings_.number && !inbox_.losses().is_gone(peer)) mail_.admit(peer, true);
+    if (peer != settings_.number && !inbox_.losses().is_away(peer)) mail_.admit(peer, true);
   if (!inbox_.must_recover()) receive_same(entry->second, entry->first);
   enter(now_, {});
-  PartChange part = peer_->change(true);
-  part.step = now_.step;
-  replicas_.add(settings_.number, std::move(part));
+  standby_.enter(now_, peer_->part_log());
 }
 
 }  // namespace rink::peer

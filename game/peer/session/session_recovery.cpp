@@ -4,9 +4,9 @@
 #include <cassert>
 #include <utility>
 
-#include "im/basics/checked.h"
-
+#include "game/peer/session/part_change.h"
 #include "game/peer/session/session.h"
+#include "im/basics/checked.h"
 
 namespace rink::peer {
 
@@ -18,41 +18,58 @@ std::string listed(const std::vector<PeerNumber>& peers) {
   return text;
 }
 
+std::string why_a_minority_halts(const State& now, const Losses& losses) {
+  const auto left =
+      std::ranges::count_if(now.members, [&](PeerNumber peer) { return !losses.is_gone(peer); });
+  return losses.last() + ". On this side " + std::to_string(left) + " of " +
+         std::to_string(now.members.size()) + " peers are left: it halts, for the others may go on";
+}
+
+/// What its sender has said before it knew of a loss.
+bool is_of_before(std::span<const std::uint8_t> bytes, const physics::Field& field) {
+  const auto is_one = [&](auto message) { return read(bytes, message); };
+  return is_one(Claims{}) || is_one(Verdict{}) || is_one(Handover{}) || is_one(PartRecord{}) ||
+         is_one(SnapshotPiece{}) || is_one(FaceOffWord{}) ||
+         is_one(Entry{.state = {.cuts = Cuts::whole(field)}});
+}
+
 }  // namespace
 
 void Session::recover() {
-  agree();
-  replicas_.rewind(now_.step);
+  while (!agree()) {
+  }
+  standby_.rewind(now_.step);
   send_away(now_);
   const Losses::Majority majority = inbox_.losses().majority(now_);
   may_have_split_ = may_have_split_ || majority == Losses::Majority::doubtful;
-  if (majority == Losses::Majority::none) halt_as_minority();
+  if (majority == Losses::Majority::none) inbox_.halt(why_a_minority_halts(now_, inbox_.losses()));
   rebuild();
   inbox_.recovered();
   ++counters_.recoveries;
 }
 
-/// Agrees with all others on the lost peers and on the last common step.
-void Session::agree() {
-  for (bool is_agreed = false; !is_agreed;) {
-    is_agreed = true;
-    for (const PeerNumber to : now_.members)
-      if (to != settings_.number && !inbox_.losses().is_gone(to))
-        mail_.send(to, written(inbox_.losses().told(now_.step)));
-    const std::vector<PeerNumber> members = now_.members;
-    for (const PeerNumber from : members) {
-      if (from == settings_.number || inbox_.losses().is_gone(from)) continue;
-      while (is_agreed && !inbox_.losses().agrees(from)) {
-        const std::vector<std::uint8_t> bytes = mail_.receive(from);
-        Loss loss;
-        if (read(bytes, loss))
-          is_agreed = !inbox_.learns_of_loss(from, bytes, now_);  // all else is of before
-      }
-      if (is_agreed && inbox_.losses().heard(from)->step < now_.step)
-        go_back(from), is_agreed = false;
-      if (!is_agreed) break;
-    }
-  }
+/// Agrees with all others on the lost peers and on the last common step. False if there may be
+/// something new to tell.
+bool Session::agree() {
+  inbox_.tell(now_);
+  const Losses& losses = inbox_.losses();
+  std::vector<PeerNumber> others = now_.members;
+  std::erase_if(others,
+                [&](PeerNumber peer) { return peer == settings_.number || losses.is_away(peer); });
+  // At once: a newcomer that those behind do not know yet may wait for a word of theirs.
+  const auto behind = std::ranges::find_if(others, [&](PeerNumber peer) {
+    return losses.agrees(peer) && losses.heard(peer)->step < now_.step;
+  });
+  if (behind != others.end()) return go_back(*behind), false;
+  std::vector<PeerNumber> awaited = others;
+  std::erase_if(awaited, [&](PeerNumber peer) { return losses.agrees(peer); });
+  if (awaited.empty()) return inbox_.has_settled(now_);
+  // Who waited for one of them alone might wait for one that waits for this one.
+  const auto [from, bytes] = mail_.receive_any(awaited);
+  inbox_.count_word(from);
+  if (Loss loss; read(bytes, loss)) inbox_.learns_of_loss(from, bytes, now_);
+  else if (!is_of_before(bytes, whole_.spec.field)) inbox_.give_up(from, "sent what is no message");
+  return false;
 }
 
 /// A peer that joined with the undone step is no member, and one that left with it still is.
@@ -67,7 +84,7 @@ void Session::go_back(PeerNumber as) {
   for (const PeerNumber peer : now_.members)
     if (!before_.has(peer)) mail_.admit(peer, false);
   for (const PeerNumber peer : before_.members)
-    if (!now_.has(peer) && !inbox_.losses().is_gone(peer)) mail_.rejoin(peer);
+    if (!now_.has(peer) && !inbox_.losses().is_away(peer)) mail_.rejoin(peer);
   now_ = before_;
   assert(now_.has(settings_.number));
 }
@@ -77,23 +94,16 @@ void Session::send_away(const State& state) {
   for (const Candidate& candidate : state.candidates) mail_.admit(candidate.number, false);
 }
 
-void Session::halt_as_minority() const {
-  const auto left = std::ranges::count_if(
-      now_.members, [&](PeerNumber peer) { return !inbox_.losses().is_gone(peer); });
-  inbox_.halt(inbox_.losses().last() + ". On this side " + std::to_string(left) + " of " +
-              std::to_string(now_.members.size()) +
-              " peers are left: it halts, for the others may go on");
-}
-
 void Session::rebuild() {
   assert(!inbox_.losses().is_gone(settings_.number));
   inbox_.losses().check();
   if (const auto unkept = Replicas::first_unkept(now_, inbox_.losses()))
     inbox_.halt("peers " + listed(inbox_.losses().gone()) + " are gone, and with them what peer " +
                 std::to_string(*unkept) + " had");
-  const std::vector<PeerNumber> parts = Replicas::parts_of(settings_.number, now_, inbox_.losses());
+  PartRecord record;
+  const std::vector<Part> parts = standby_.played_parts(now_, whole_.spec, record.inherited);
   const auto share = [&](PeerNumber to) {
-    Handover message = replicas_.share(parts, division_, to, settings_.halo);
+    Handover message = Replicas::share(parts, division_, to, settings_.halo);
     message.window = static_cast<std::uint32_t>(now_.window);
     return message;
   };
@@ -129,12 +139,7 @@ void Session::rebuild() {
                        "hands over body " + std::to_string(*body) + ", which is in another's zone");
     }
   enter(next, shares);
-  PartChange change = peer_->change(true);
-  for (const PeerNumber peer : parts) {
-    const std::vector<Key> log = replicas_.log(peer);
-    change.log.insert(change.log.end(), log.begin(), log.end());
-  }
-  replicate(next, std::move(change));
+  standby_.pass({now_, next, true}, *peer_, std::move(record));
   before_ = std::exchange(now_, std::move(next));
   if constexpr (checks_whole_structures) now_.check();
   press_again();
@@ -145,6 +150,8 @@ void Session::enter(const State& next, std::span<const Handover> shares) {
   if (peer_) counters_.peer += peer_->counters();
   peer_.emplace(whole_.spec, division_, settings_.number, whole_.body_count, settings_.halo);
   peer_->validate_by(inbox_.validator());
+  // Who has no shares comes late.
+  if (settings_.keeps_to_neighbours) peer_->keep_to_neighbours(shares.empty());
   for (PeerNumber peer = 0; peer < next.slots; ++peer) peer_->set_present(peer, next.has(peer));
   for (const Player& player : next.players)
     if (next.has(player.peer))
@@ -154,8 +161,8 @@ void Session::enter(const State& next, std::span<const Handover> shares) {
   peer_->enter(static_cast<std::uint32_t>(next.step), time, shares);
   for (const Key& key : settings_.keys)
     if (next.time == 0.0 || key.time > time) peer_->press_first(key);
-  peer_->keep_changes();
   peer_->begin(agreement_.stretch_end(next));
+  peer_->part_log().begin(inbox_.validator());
 }
 
 /// Presses keys of undone windows again. Bats have other owners now, by their observations.

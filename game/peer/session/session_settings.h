@@ -9,6 +9,8 @@
 #include "game/peer/protocol.h"
 #include "game/peer/session/scoring.h"
 #include "game/peer/session/session_state.h"
+#include "game/peer/standby/standby_feed.h"
+#include "game/peer/start.h"
 
 namespace rink::peer {
 
@@ -18,6 +20,7 @@ struct SessionSettings {
   double halo = 1.0;                      ///< where it begins [m]
   bool is_replicated = true;              ///< whether each part is kept by another peer,
                                           ///< too; otherwise a loss ends all
+  StandbyLimits standby{};                ///< of those copies
   std::uint64_t window_count = 1;
   std::function<double(std::uint64_t)> end_of;  ///< window 1, 2, ..., `window_count` + 1 [s]
   std::uint32_t balance_windows = 0;  ///< period [windows] in which zones shift toward equal events
@@ -28,8 +31,18 @@ struct SessionSettings {
                                      ///< in which a side wins.
   std::vector<Player> players{};     ///< of the first peers
   std::uint32_t bat_count = 0;       ///< that can be played
+  bool takes_latecomers = false;     ///< bats may be seated that none of `players` has
+  bool keeps_to_neighbours = true;   ///< otherwise claims and handovers go to all members, so that
+                                     ///< what is sent beside them stays in order with all
   std::function<std::vector<Seat>(const Player&)> seats_of{};
   WindowHooks hooks{};  ///< for callers; `when_final` is the session's own
+  /// Called, if not empty, when a window, or a stretch of one that is cut, is final, and the next
+  /// is prepared: the peer's change is that of the stretch, with the pucks that came back at its
+  /// end.
+  std::function<void()> when_committed{};
+  /// If not empty: true if the session is over after this window, won or not, of which all peers
+  /// must know before they play it; not of a replicated session, which may undo it.
+  std::function<bool(std::uint64_t window)> is_stopped{};
 };
 
 /// Data about all bodies that a session needs.
@@ -38,7 +51,7 @@ struct Whole {
   std::uint32_t body_count = 0;
   std::vector<double> puck_radii{};  ///< m, by body, 0 for others than pucks; empty without
                                      ///< goals, when others' pucks do not matter
-  static Whole of(const physics::World& world);
+  static Whole of(const Start& start);
   bool has_puck(std::uint32_t body) const {
     return body < puck_radii.size() && puck_radii[body] > 0.0;
   }

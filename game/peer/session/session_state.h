@@ -100,11 +100,9 @@ bool exchange(Stream& stream, Entry& entry) {
   State& state = entry.state;
   return stream.number(entry.word) && entry.word == entry_word &&
          stream.numbers(state.step, state.window, state.time) && exchange(stream, state.scoring) &&
-         exchange_numbers(stream, state.members) && state.cuts.exchange(stream) &&
-         stream.numbers(state.zones, state.counted_windows) && stream.size(state.events) &&
-         std::all_of(state.events.begin(), state.events.end(),
-                     [&](double& events) { return stream.number(events); }) &&
-         exchange_numbers(stream, state.fresh) && exchange_numbers(stream, state.gone) &&
+         stream.number_list(state.members) && state.cuts.exchange(stream) &&
+         stream.numbers(state.zones, state.counted_windows) && stream.number_list(state.events) &&
+         stream.number_list(state.fresh) && stream.number_list(state.gone) &&
          exchange_list(stream, state.candidates) && exchange_list(stream, state.admitted) &&
          exchange_list(stream, state.players) &&
          stream.numbers(state.slots, state.next_number, state.bats_taken);

@@ -17,6 +17,11 @@ void add_paths(std::span<const ClaimedFlight> flights, std::size_t first, double
                      k + 1 < flights.size() ? flights[k + 1].begin : end, 0, flights[k].box()});
 }
 
+bool leads_to(const ClaimedFlight& flight, const Vector2& place) {
+  constexpr double rounding = 1e-6;  // m: far more than a place is rounded by
+  return flight.box().grown(rounding).meets(Box::around(place, {0.0, 0.0}));
+}
+
 }  // namespace
 
 ClaimCheck::ClaimCheck(const Share& share, const Halos& halos, const Homes& homes,
@@ -44,6 +49,12 @@ bool ClaimCheck::are_possible(const Window& window) {
   for (const std::uint32_t body : roles.ghosts()) ++counts[roles.owner_of_ghost(body)];
   for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
     if (peer == halos_.number() || !halos_.is_present(peer)) continue;
+    if (!halos_.has_neighbour(peer)) {
+      if (counts[peer] > 0)
+        return accusation_.report(peer, "has " + std::to_string(counts[peer]) +
+                                            " bodies here, where it has no neighbour");
+      continue;
+    }
     if (claims_[peer].window != window.number)
       return accusation_.report(peer, "claims window " + std::to_string(claims_[peer].window) +
                                           " instead of " + std::to_string(window.number));
@@ -68,8 +79,7 @@ bool ClaimCheck::are_possible(const Window& window) {
 std::vector<ClaimCheck::Flights> ClaimCheck::sort_claims(const Window& window,
                                                          std::vector<PathFlight>& beyond) const {
   std::vector<Flights> claimed(share_.roles().ghosts().size());
-  for (PeerNumber peer = 0; peer < claims_.size(); ++peer) {
-    if (!halos_.is_present(peer)) continue;  // its last claims are of an older window
+  for (const PeerNumber peer : halos_.neighbours()) {
     const Claims& claims = claims_[peer];
     std::size_t first = 0;
     for (const Claims::Body& body : claims.bodies) {
@@ -150,6 +160,69 @@ void ClaimCheck::blame_doubted() {
 bool ClaimCheck::is_doubtful(std::uint32_t ghost) const {
   const std::size_t place = share_.roles().place_of_ghost(ghost);
   return place < doubts_.size() && doubts_[place] < infinity;
+}
+
+/// Claims show where a body goes and who was there, but not all that it remembers of impacts. That
+/// follows from its events if all who were in them are as they truly are.
+void ClaimCheck::weigh() {
+  is_tainted_.clear();
+  if (std::ranges::none_of(doubts_, [](double doubt) { return doubt < infinity; })) return;
+  is_tainted_.resize(share_.roles().body_count(), false);
+  const std::vector<physics::Change>& changes = share_.subdomain().journal().changes;
+  for (std::size_t begin = 0, end = 0; begin < changes.size(); begin = end) {
+    bool is_tainted = false;
+    for (end = begin; end < changes.size() && changes[end].event == changes[begin].event; ++end)
+      is_tainted = is_tainted || is_tainted_[changes[end].body];
+    if (!is_tainted && !has_doubtful({begin, end})) continue;
+    for (std::size_t k = begin; k < end; ++k) is_tainted_[changes[k].body] = true;
+  }
+}
+
+ClaimCheck::Flights ClaimCheck::claims_of(std::uint32_t ghost) const {
+  const Claims& claims = claims_[share_.roles().owner_of_ghost(ghost)];
+  std::size_t first = 0;
+  for (const Claims::Body& body : claims.bodies) {
+    if (body.is_known && body.number == ghost)
+      return Flights(claims.flights).subspan(first, body.flight_count);
+    first += body.flight_count;
+  }
+  return {};
+}
+
+/// An owner that claims no event of a ghost hands over nothing of it. What it hands over of others
+/// is where the last claimed flight has led to.
+bool ClaimCheck::contradicts(std::uint32_t ghost, const BodyState& state) const {
+  const physics::Subdomain& subdomain = share_.subdomain();
+  if (!is_doubtful(ghost)) {
+    const bool is_certain = is_tainted_.empty() || !is_tainted_[ghost];
+    return is_certain ? !are_same(subdomain.state(ghost), state)
+                      : !FreeFlightState::of(ghost, state.flight).is_as(subdomain.flight(ghost));
+  }
+  const Flights claimed = claims_of(ghost);
+  if (claimed.empty()) return !are_same(subdomain.state_before(ghost), state);
+  const Vector2 place = physics::Subdomain::is_out_of_play(state)
+                            ? Vector2(state.flight.x, state.flight.y)
+                            : state.motion().at(share_.world().now()).position;
+  return !leads_to(claimed.back(), place);
+}
+
+/// The impact that led to this flight is one of those claimed; after it the body may only have been
+/// looked at, which is claimed too.
+bool ClaimCheck::contradicts(const FreeFlightState& flight) const {
+  const physics::Subdomain& subdomain = share_.subdomain();
+  if (!is_doubtful(flight.number)) return !flight.is_as(subdomain.flight(flight.number));
+  const Flights claimed = claims_of(flight.number);
+  const std::uint8_t mouth = subdomain.state_before(flight.number).mouth;
+  const auto is_impact = [&](const ClaimedFlight& one) {
+    const auto partner = ClaimTrace::partner_in(one.state, flight, mouth);
+    return partner < share_.roles().body_count() && partner != flight.number;
+  };
+  const physics::Motion motion{.time = flight.time,
+                               .position = flight.position,
+                               .velocity = flight.velocity,
+                               .drag = Vector2::Constant(share_.world().spec().puck_drag)};
+  return std::ranges::none_of(claimed, is_impact) ||
+         !leads_to(claimed.back(), motion.at(share_.world().now()).position);
 }
 
 void ClaimCheck::correct(Share& share) {

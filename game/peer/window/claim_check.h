@@ -33,6 +33,12 @@ class ClaimCheck {
 
   /// Whether the ghost, after `agree`, ceased to be what its owner says.
   bool is_doubtful(std::uint32_t ghost) const;
+  /// Finds what else a doubtful ghost may have changed here. Call it before `contradicts`.
+  void weigh();
+  /// Whether what both sides agree on proves that the ghost, at the window's end, is not as its
+  /// owner now says. Of a doubtful one nothing is agreed but the claims.
+  bool contradicts(std::uint32_t ghost, const BodyState& state) const;
+  bool contradicts(const FreeFlightState& flight) const;
   /// Corrects doubtful ghosts in this share, which is the one that it was made for, and forgets
   /// them.
   void correct(Share& share);
@@ -43,6 +49,7 @@ class ClaimCheck {
   double first_difference(std::uint32_t ghost, Flights claimed, const Window& window,
                           std::vector<PathFlight>& beyond) const;
   std::vector<Flights> sort_claims(const Window& window, std::vector<PathFlight>& beyond) const;
+  Flights claims_of(std::uint32_t ghost) const;
   bool may_touch_own(const PathFlight& foreign) const;
   bool has_doubtful(const ClaimTrace::Event& event) const;
 
@@ -55,6 +62,8 @@ class ClaimCheck {
   std::vector<double> doubts_;    ///< by place of the ghost: when it ceases to be what its owner
                                   ///< says [s]; never, as a rule
   std::vector<bool> is_unmoved_;  ///< its owner says that nothing happened to it
+  std::vector<bool> is_tainted_;  ///< by body: it was in an event with a doubtful one, directly or
+                                  ///< through others; empty if none was
 };
 
 }  // namespace rink::peer

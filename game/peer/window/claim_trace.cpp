@@ -11,10 +11,24 @@ namespace rink::peer {
 
 namespace {
 
+constexpr std::uint64_t factor = 0x9e3779b97f4a7c15ULL, body_mark = 0x9ae16a3b2f90404fULL;
+
+/// Each word can be undone, so a digest of known words but one tells that one.
 std::uint64_t digest(std::uint64_t before, std::uint64_t word) {
-  before = (before ^ word) * 0x9e3779b97f4a7c15ULL;
+  before = (before ^ word) * factor;
   return before ^ (before >> 31);
 }
+constexpr std::uint64_t inverse_of(std::uint64_t odd) {
+  std::uint64_t inverse = odd;  // right in its three lowest bits, then in twice as many each time
+  for (int bits = 3; bits < 64; bits *= 2) inverse *= 2 - odd * inverse;
+  return inverse;
+}
+static_assert(factor * inverse_of(factor) == 1);
+/// What was before digest(before, word), or the word if `word` is what was before.
+std::uint64_t undone(std::uint64_t after, std::uint64_t word) {
+  return (after ^ (after >> 31) ^ (after >> 62)) * inverse_of(factor) ^ word;
+}
+std::uint64_t participant(std::uint32_t body) { return digest(body_mark, std::uint64_t{body}); }
 std::uint64_t digest(std::uint64_t before, double number) {
   return digest(before, std::bit_cast<std::uint64_t>(number));
 }
@@ -26,6 +40,21 @@ ClaimedFlight claimed(double begin, std::uint64_t state, const Box& box) {
           rounded_down(box.low_y),
           rounded_up(box.high_x),
           rounded_up(box.high_y)};
+}
+
+/// How far the box reaches beyond the nearest of these zones [m]; negative inside.
+double excess_of(const Box& box, std::span<const Box> zones) {
+  double least = infinity;
+  for (const Box& zone : zones)
+    least = std::min(least, std::max({zone.low_x - box.low_x, zone.low_y - box.low_y,
+                                      box.high_x - zone.high_x, box.high_y - zone.high_y}));
+  return least;
+}
+
+/// How far the box reaches from a place in it.
+double farthest_side(const Box& box, const Vector2& place) {
+  return std::max({place.x() - box.low_x, place.y() - box.low_y, box.high_x - place.x(),
+                   box.high_y - place.y()});
 }
 
 }  // namespace
@@ -62,8 +91,7 @@ void ClaimTrace::enter(const Event& event) {
   const std::vector<physics::Change>& changes = share_.subdomain().journal().changes;
   assert(event.begin < event.end && event.end <= changes.size());
   std::uint64_t concerned = 0;
-  for (std::size_t k = event.begin; k < event.end; ++k)
-    concerned += digest(0x9ae16a3b2f90404fULL, std::uint64_t{changes[k].body});
+  for (std::size_t k = event.begin; k < event.end; ++k) concerned += participant(changes[k].body);
   for (std::size_t k = event.begin; k < event.end; ++k) {
     const physics::Change& c = changes[k];
     if (share_.owns(c.body) && !homes_.is_at_edge(c.body)) continue;
@@ -72,6 +100,14 @@ void ClaimTrace::enter(const Event& event) {
         c.since);
     steps_.push_back({c.body, static_cast<std::uint32_t>(k), state});
   }
+}
+
+std::uint64_t ClaimTrace::partner_in(std::uint64_t state, const FreeFlightState& flight,
+                                     std::uint8_t mouth) {
+  for (const double number : {flight.time, flight.velocity.y(), flight.velocity.x(),
+                              flight.position.y(), flight.position.x()})
+    state = undone(state, std::bit_cast<std::uint64_t>(number));
+  return undone(undone(state, std::uint64_t{mouth}) - participant(flight.number), body_mark);
 }
 
 std::span<const ClaimTrace::Step> ClaimTrace::steps_of(std::uint32_t body) const {
@@ -168,15 +204,21 @@ bool ClaimTrace::may_touch(const PathFlight& foreign) const {
 double ClaimTrace::needed_halo(std::span<const Box> zones) const {
   assert(!zones.empty() || flights_.empty());
   double most = 0.0;
-  for (const PathFlight& flight : flights_) {
-    const Box box = flight.box.grown(touch_margin);
-    double least = infinity;
-    for (const Box& zone : zones)
-      least = std::min(least, std::max({zone.low_x - box.low_x, zone.low_y - box.low_y,
-                                        box.high_x - zone.high_x, box.high_y - zone.high_y}));
-    most = std::max(most, least);
-  }
+  for (const PathFlight& flight : flights_)
+    most = std::max(most, excess_of(flight.box.grown(touch_margin), zones));
   return most;
+}
+
+float ClaimTrace::reach_for_strangers(const Halos& halos) const {
+  double from_place = share_.extent_max(), beyond = 0.0;
+  for (const Reach& reach : homes_.outskirts()) {
+    from_place =
+        std::max(from_place, farthest_side(reach.box, share_.world().position({reach.body})));
+    beyond = std::max(beyond, excess_of(reach.box, halos.own_zones()));
+  }
+  const double widest = std::max(from_place > halos.usual_reach() - touch_margin ? from_place : 0.0,
+                                 beyond > halos.own() - touch_margin ? beyond : 0.0);
+  return widest > 0.0 ? rounded_up(widest + touch_margin) : 0.0f;
 }
 
 }  // namespace rink::peer

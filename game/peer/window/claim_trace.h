@@ -47,6 +47,11 @@ class ClaimTrace {
   /// What of it concerns `peer`.
   Claims claims_for(PeerNumber peer, const Window& window, const Halos& halos) const;
 
+  /// The number of the body with which one has come to this flight by a free impact, if `state` is
+  /// what ClaimedFlight says of that; otherwise an arbitrary number. `mouth` is its BodyState's.
+  static std::uint64_t partner_in(std::uint64_t state, const FreeFlightState& flight,
+                                  std::uint8_t mouth);
+
   /// By time, of a ghost or of a body at the edge.
   std::span<const Step> steps_of(std::uint32_t body) const;
   double time_of(const Step& step) const;
@@ -61,6 +66,9 @@ class ClaimTrace {
   /// The halo around these zones that contains all own paths, so that no unknown body outside it
   /// can touch them [m].
   double needed_halo(std::span<const Box> zones) const;
+  /// How far own bodies reach from their places, with those that touch them, or beyond `halo` at
+  /// the run's end [m]; 0 if no farther than all peers count with.
+  float reach_for_strangers(const Halos& halos) const;
 
  private:
   /// The flights from `begin` to `end`, the first being that at the window's start.

@@ -86,8 +86,26 @@ void Handovers::report(PeerNumber from, std::uint32_t body) {
   accusation_.report(from, "hands over body " + std::to_string(body) + ", which it does not own");
 }
 
-void Handovers::complete(const ClaimCheck& check) {
-  for (PeerNumber from = 0; from < received_.size(); ++from) complete(received_[from], from, check);
+void Handovers::complete(ClaimCheck& check) {
+  check.weigh();
+  for (PeerNumber from = 0; from < received_.size(); ++from) {
+    check_states(from, check);
+    complete(received_[from], from, check);
+  }
+}
+
+void Handovers::check_states(PeerNumber from, const ClaimCheck& check) {
+  const auto may_show = [&](std::uint32_t body) {
+    return body < share_.roles().body_count() && share_.roles().has_ghost_of(from, body);
+  };
+  const auto report_other = [&](std::uint32_t body) {
+    accusation_.report(
+        from, "hands over body " + std::to_string(body) + " in another state than it has claimed");
+  };
+  for (const auto& [body, state] : received_[from].bodies)
+    if (may_show(body) && check.contradicts(body, state)) report_other(body);
+  for (const FreeFlightState& flight : received_[from].free_flights)
+    if (may_show(flight.number) && check.contradicts(flight)) report_other(flight.number);
 }
 
 /// Most ghosts already have their owners' states; the others follow from their states at the

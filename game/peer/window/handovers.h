@@ -31,8 +31,8 @@ class Handovers {
 
   void receive(PeerNumber from, Handover handover);
   /// Before doubtful ghosts are corrected: bodies that had only free impacts get the rest of their
-  /// states.
-  void complete(const ClaimCheck& check);
+  /// states. Names owners whose states contradict their claims.
+  void complete(ClaimCheck& check);
   /// Puts the bodies that `from` has handed over, and returns its handover without bodies, keys and
   /// contacts of others.
   Handover enter(PeerNumber from);
@@ -40,6 +40,7 @@ class Handovers {
 
  private:
   void complete(Handover& handover, PeerNumber from, const ClaimCheck& check);
+  void check_states(PeerNumber from, const ClaimCheck& check);
   bool may_hand_over(PeerNumber from, std::uint32_t body) const;
   void report(PeerNumber from, std::uint32_t body);
   /// With the numbers of the bodies that come, sorted.

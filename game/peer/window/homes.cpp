@@ -35,7 +35,9 @@ std::uint8_t Homes::home_of(const Vector2& place, std::uint8_t likely) const {
   return 0;
 }
 
-double Homes::least_margin() const { return halos_.widest_other() + 1.001 * share_.extent_max(); }
+double Homes::least_margin() const {
+  return std::max(halos_.widest_other(), halos_.deepest_annex()) + 1.001 * share_.extent_max();
+}
 
 bool Homes::are_fit() const {
   const double needed = least_margin();
@@ -155,7 +157,7 @@ bool Homes::are_met_by(const Box& box) const {
 }
 
 void Homes::look_at(std::uint32_t body) {
-  const physics::World& world = share_.world();
+  const physics::PartWorld& world = share_.world();
   const std::uint8_t home = homes_[body];
   end_homes_[body] =
       world.is_held({body}) ? std::uint8_t{0} : home_of(world.position({body}), home);

@@ -27,7 +27,10 @@ class Homes {
   /// Chooses the homes, and so the bodies at home. Until the next window all are watched, and a run
   /// that was played must be repeated.
   void choose(const Window& window);
-  /// After the zones changed: all own bodies may be elsewhere at the window's end.
+  /// Whether no halo and no annex reaches a home.
+  bool are_safe() const { return margin_ >= least_margin(); }
+  /// After the zones changed, or annexes came that reach a home: all own bodies may be elsewhere,
+  /// or ghosts of others, at the window's end.
   void reopen();
 
   /// At a window's start: whether it ends before anything unwatched could have left its home; else

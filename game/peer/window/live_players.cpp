@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace rink::peer {
 
@@ -22,6 +23,11 @@ void LivePlayers::seat(const Seat& seat) {
   seats_.push_back(seat);
 }
 
+void LivePlayers::move_seat(const Seat& seat) {
+  std::erase_if(seats_, [&](const Seat& earlier) { return earlier.bat == seat.bat; });
+  this->seat(seat);
+}
+
 void LivePlayers::press(PeerNumber owner, const Press& press) {
   assert(owner < presses_.size() && press.input != 0);
   presses_[owner].push_back(press);
@@ -30,6 +36,17 @@ void LivePlayers::press(PeerNumber owner, const Press& press) {
 std::vector<Press> LivePlayers::take_presses(PeerNumber owner) {
   assert(owner < presses_.size());
   return std::exchange(presses_[owner], {});
+}
+
+std::vector<Press> LivePlayers::take_strange_presses() {
+  std::vector<Press> taken;
+  for (PeerNumber owner = 0; owner < presses_.size(); ++owner) {
+    if (presses_[owner].empty() || owner == halos_.number() || halos_.has_neighbour(owner))
+      continue;
+    taken.insert(taken.end(), presses_[owner].begin(), presses_[owner].end());
+    presses_[owner].clear();
+  }
+  return taken;
 }
 
 bool LivePlayers::plays(PeerNumber peer, std::uint32_t bat) const {
@@ -52,8 +69,33 @@ void LivePlayers::stamp(PeerNumber from, std::span<const Press> presses, double 
   }
 }
 
+bool LivePlayers::is_unseen(std::uint32_t bat) const {
+  for (PeerNumber peer = 0; peer < halos_.peer_count(); ++peer)
+    if (peer != halos_.number() && std::ranges::count(share_.known(peer), bat) > 0) return false;
+  return share_.owns(bat);
+}
+
+void LivePlayers::stamp_unseen(double start, TimedKeys& keys) {
+  std::erase_if(early_, [&](const Early& each) {
+    const Press& press = each.press;
+    if (press.time > start || !plays(each.from, press.bat) || !is_unseen(press.bat)) return false;
+    const Key key{start, press.bat, press.thrust, press.input};
+    keys.repeat_with({&key, 1});
+    return true;
+  });
+}
+
+void LivePlayers::stamp_early(double end, TimedKeys& keys) {
+  std::erase_if(early_, [&](Early& each) {
+    if (!plays(each.from, each.press.bat)) return true;
+    if (!share_.owns(each.press.bat) && !std::exchange(each.is_late, true)) return false;
+    stamp(each.from, {&each.press, 1}, end, keys);
+    return true;
+  });
+}
+
 Observation LivePlayers::observation_of(const Seat& seat) const {
-  const physics::World& world = share_.world();
+  const physics::PartWorld& world = share_.world();
   Observation observation{.bat = seat.bat,
                           .owner = 0,
                           .time = world.now(),
@@ -85,6 +127,18 @@ std::vector<Observation> LivePlayers::due_for(PeerNumber player, const Window& w
     if (seat.peer == player && share_.owns(seat.bat) && seat.is_due(window.start, window.end))
       observations.push_back(observation_of(seat));
   return observations;
+}
+
+std::vector<PeerNumber> LivePlayers::strangers_due(const Window& window) const {
+  std::vector<PeerNumber> peers;
+  for (const Seat& seat : seats_)
+    if (seat.peer != halos_.number() && !halos_.has_neighbour(seat.peer) &&
+        halos_.is_present(seat.peer) && share_.owns(seat.bat) &&
+        seat.is_due(window.start, window.end))
+      peers.push_back(seat.peer);
+  std::ranges::sort(peers);
+  peers.erase(std::ranges::unique(peers).begin(), peers.end());
+  return peers;
 }
 
 std::vector<Observation> LivePlayers::all_for(PeerNumber player) const {

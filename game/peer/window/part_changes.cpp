@@ -8,10 +8,11 @@ namespace rink::peer {
 void PartChanges::note_window(const Share& share) {
   if (!is_noting_) return;
   changed_.clear(), free_flights_.clear(), left_.clear();
-  for (const auto& kept : share.subdomain().before().flights())
-    if (share.owns(kept.body))
-      (share.subdomain().has_flown_freely(kept.body) ? free_flights_ : changed_)
-          .push_back(kept.body);
+  for (const auto& kept : share.subdomain().before().flights()) {
+    const std::uint32_t body = share.subdomain().number_of(kept.body);
+    if (share.owns(body))
+      (share.subdomain().has_flown_freely(body) ? free_flights_ : changed_).push_back(body);
+  }
 }
 
 void PartChanges::note(const Settlement& settled) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "game/peer/session/part_replica.h"
+#include "game/peer/session/part_change.h"
 #include "game/peer/window/share.h"
 #include "game/peer/window/timed_keys.h"
 

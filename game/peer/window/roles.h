@@ -25,11 +25,11 @@ class Roles {
   bool owns(std::uint32_t body) const { return of(body) == Role::own; }
   bool has_ghost(std::uint32_t body) const { return of(body) == Role::ghost; }
   bool has_ghost_of(PeerNumber owner, std::uint32_t body) const {
-    return has_ghost(body) && owners_[body] == owner;
+    return has_ghost(body) && details_[body] == owner;
   }
   PeerNumber owner_of_ghost(std::uint32_t body) const {
     assert(has_ghost(body));
-    return owners_[body];
+    return details_[body];
   }
   /// In the order in which they came, but for gaps that the last ones have filled.
   const std::vector<std::uint32_t>& owned() const { return owned_; }
@@ -53,8 +53,8 @@ class Roles {
  private:
   std::vector<Role> roles_;
   std::vector<std::uint32_t> owned_, ghosts_;
-  std::vector<std::uint32_t> owned_places_;  ///< in `owned_`
-  std::vector<PeerNumber> owners_;           ///< of ghosts
+  std::vector<std::uint32_t> details_;  ///< by body: of an own one its place in `owned_`, of a
+                                        ///< ghost its owner
 };
 
 }  // namespace rink::peer

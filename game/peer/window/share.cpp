@@ -7,6 +7,26 @@
 
 namespace rink::peer {
 
+std::vector<RestContact> sound_contacts(std::vector<RestContact> rest_contacts,
+                                        const physics::Subdomain& there) {
+  const auto is_there = [&](physics::Partner p) {
+    return p >= physics::partner::field_parts || there.is_there(p);
+  };
+  std::erase_if(rest_contacts, [&](const RestContact& rest) {
+    return !is_there(rest.low) || !is_there(rest.high);
+  });
+  const auto names = [](const RestContact& rest) {
+    return std::tuple(rest.low, rest.high, rest.axis);
+  };
+  std::stable_sort(rest_contacts.begin(), rest_contacts.end(),
+                   [&](const RestContact& a, const RestContact& b) { return names(a) < names(b); });
+  rest_contacts.erase(
+      std::unique(rest_contacts.begin(), rest_contacts.end(),
+                  [&](const RestContact& a, const RestContact& b) { return names(a) == names(b); }),
+      rest_contacts.end());
+  return rest_contacts;
+}
+
 Share::Share(const physics::WorldSpec& spec, std::uint32_t body_count, PeerNumber peer_count)
     : subdomain_(spec, body_count), roles_(body_count), known_(peer_count), coming_(peer_count) {
   assert(peer_count > 0);
@@ -44,33 +64,18 @@ bool Share::will_have(PeerNumber peer, std::uint32_t body) const {
 
 void Share::put(std::uint32_t body, const BodyState& state) {
   assert(body < roles_.body_count() && !roles_.owns(body));
-  note_extent(state);
+  note_extent(state), touch(body);
   subdomain_.put(body, state);
 }
 
 void Share::correct(std::uint32_t ghost, bool is_unmoved) {
   assert(roles_.has_ghost(ghost));
-  if (is_unmoved) subdomain_.put(ghost, subdomain_.state_before(ghost));
-  else subdomain_.drop(ghost);
+  if (is_unmoved) touch(ghost), subdomain_.put(ghost, subdomain_.state_before(ghost));
+  else drop(ghost);
 }
 
 void Share::set_rest_contacts(std::vector<RestContact> rest_contacts) {
-  const auto is_there = [&](physics::Partner p) {
-    return p >= physics::partner::field_parts || subdomain_.is_there(p);
-  };
-  std::erase_if(rest_contacts, [&](const RestContact& rest) {
-    return !is_there(rest.low) || !is_there(rest.high);
-  });
-  const auto names = [](const RestContact& rest) {
-    return std::tuple(rest.low, rest.high, rest.axis);
-  };
-  std::stable_sort(rest_contacts.begin(), rest_contacts.end(),
-                   [&](const RestContact& a, const RestContact& b) { return names(a) < names(b); });
-  rest_contacts.erase(
-      std::unique(rest_contacts.begin(), rest_contacts.end(),
-                  [&](const RestContact& a, const RestContact& b) { return names(a) == names(b); }),
-      rest_contacts.end());
-  subdomain_.set_rest_contacts(std::move(rest_contacts));
+  subdomain_.set_rest_contacts(sound_contacts(std::move(rest_contacts), subdomain_));
 }
 
 std::vector<RestContact> Share::own_rest_contacts() const {
@@ -89,8 +94,8 @@ void Share::find_owner(std::uint32_t body, const Vector2& place, const Box& reac
   if (owner == halos.number()) {
     if (!roles_.owns(body)) roles_.own(body), settled.came.push_back(body);
     settled.own.push_back(body);
-    for (PeerNumber peer = 0; peer < halos.peer_count(); ++peer) {
-      if (peer == owner || !halos.is_near(peer, reach)) continue;
+    for (const PeerNumber peer : halos.neighbours()) {
+      if (!halos.is_near(peer, reach)) continue;
       std::vector<std::uint32_t>& known = known_[peer];
       known.insert(std::ranges::upper_bound(known, body), body);
     }
@@ -101,7 +106,7 @@ void Share::find_owner(std::uint32_t body, const Vector2& place, const Box& reac
     subdomain_.set_room(body, 0);
   }
   if (halos.is_near(halos.number(), reach)) roles_.add_ghost(body, owner);
-  else subdomain_.drop(body);
+  else drop(body);
 }
 
 Settlement Share::settle(std::vector<std::uint32_t> candidates, const Halos& halos) {
@@ -137,7 +142,7 @@ Settlement Share::put_back(const Handover::Body& scored, const Vector2& place, c
   if (roles_.has_ghost(body)) roles_.remove_ghost(body);
   for (std::vector<std::uint32_t>& known : known_) std::erase(known, body);
   if (!subdomain_.is_there(body)) subdomain_.put(body, scored.state);
-  note_extent(scored.state);
+  note_extent(scored.state), touch(body);
   subdomain_.place(body, place);
   Settlement settled;
   find_owner(body, place, Box::around(place, extent_of(body)), halos, settled);

@@ -28,12 +28,16 @@ struct Settlement {
   std::vector<std::uint32_t> own{}, came{}, left{};
 };
 
+/// These contacts between bodies that are there, each once, in the order in which they are set.
+std::vector<RestContact> sound_contacts(std::vector<RestContact> rest_contacts,
+                                        const physics::Subdomain& there);
+
 class Share {
  public:
   Share(const physics::WorldSpec& spec, std::uint32_t body_count, PeerNumber peer_count);
 
   const physics::Subdomain& subdomain() const { return subdomain_; }
-  const physics::World& world() const { return subdomain_.world(); }
+  const physics::PartWorld& world() const { return subdomain_.world(); }
   BodyState state(std::uint32_t body) const { return subdomain_.state(body); }
   const Roles& roles() const { return roles_; }
   bool owns(std::uint32_t body) const { return roles_.owns(body); }
@@ -89,6 +93,11 @@ class Share {
   /// The keys, by time, take effect.
   void play(std::span<const Key> keys, double until);
 
+  /// Between windows: notes from here on who is put, put back or dropped.
+  void note_touched() { notes_touched_ = true, touched_.clear(); }
+  /// Those that were since the last call, in no order, some of them more than once.
+  std::vector<std::uint32_t> take_touched() { return std::exchange(touched_, {}); }
+
   /// As Subdomain's.
   std::vector<std::uint32_t> take_entered() { return subdomain_.take_entered(); }
   void set_room(std::uint32_t body, std::uint8_t room) { subdomain_.set_room(body, room); }
@@ -100,6 +109,10 @@ class Share {
   void check(PeerNumber number) const;
 
  private:
+  void touch(std::uint32_t body) {
+    if (notes_touched_) touched_.push_back(body);
+  }
+  void drop(std::uint32_t body) { touch(body), subdomain_.drop(body); }
   void find_owner(std::uint32_t body, const Vector2& place, const Box& reach, const Halos& halos,
                   Settlement& settled);
 
@@ -107,6 +120,8 @@ class Share {
   Roles roles_;
   double extent_max_ = 0.0;
   std::vector<Reach> groups_;
+  std::vector<std::uint32_t> touched_;
+  bool notes_touched_ = false;
   std::vector<std::vector<std::uint32_t>> known_, coming_;  ///< by peer
 };
 

@@ -66,12 +66,15 @@ bool ImpactHistory::would_be_worn(std::uint32_t body, Real time) const {
   return !(time - counts.window_start > contact_time_) && counts.impacts + 1 >= impacts_max;
 }
 
-void ImpactHistory::take_back_impacts(std::uint32_t body, Real window_start,
-                                      std::uint32_t impacts) {
+void ImpactHistory::take_back(std::uint32_t body, const ImpactCounts& before) {
   assert(body < impact_counts_.size());
   ImpactCounts& counts = impact_counts_[body];
-  if (std::tie(window_start, impacts) < std::tie(counts.window_start, counts.impacts))
-    counts.window_start = window_start, counts.impacts = impacts;
+  if (std::tie(before.window_start, before.impacts) < std::tie(counts.window_start, counts.impacts))
+    counts.window_start = before.window_start, counts.impacts = before.impacts;
+  RepeatCount& contacts = counts.first_contacts;
+  const RepeatCount& earlier = before.first_contacts;
+  if (std::tie(earlier.instant, earlier.count) < std::tie(contacts.instant, contacts.count))
+    contacts = earlier;
 }
 
 bool ImpactHistory::is_pressed_hard(const Contact& c, Real approach, Real time) const {

@@ -41,9 +41,9 @@ class ImpactHistory {
   /// Whether its impacts, with one more at `time`, would follow each other so closely that they are
   /// one contact, at any speed.
   bool would_be_worn(std::uint32_t body, Real time) const;
-  /// Back to an earlier count of its impacts; nothing if it is not earlier. Of several counts the
-  /// first remains, in whatever order they are given.
-  void take_back_impacts(std::uint32_t body, Real window_start, std::uint32_t impacts);
+  /// Back to earlier counts of its impacts and of those at one instant; nothing where they are not
+  /// earlier. Of several counts the first remains, in whatever order they are given.
+  void take_back(std::uint32_t body, const ImpactCounts& before);
   /// Whether impacts of one of the two follow each other so closely that they are one contact.
   bool is_pressed_hard(const Contact& contact, Real approach, Real time) const;
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "game/physics/bodies/journal.h"
+
 namespace rink::physics::inline RINK_PRECISION {
 
 void Jams::read(std::uint32_t body, BodyState& state) const {
@@ -21,8 +23,10 @@ void Jams::write(std::uint32_t body, const BodyState& state) {
 void Jams::enlist(std::span<const std::uint32_t> members) {
   assert(!members.empty());
   ++table_.count;
-  const std::uint32_t jam = *std::min_element(
-      members.begin(), members.end());  // nobody is in two, so that it names the jam in every world
+  const std::uint32_t lowest = *std::min_element(members.begin(), members.end());
+  // Nobody is in two, so that its number in the whole names the jam in every world.
+  const std::uint32_t jam =
+      observers_.journal != nullptr ? observers_.journal->number_of(lowest) : lowest;
   for (const std::uint32_t body : members) {
     assert(!bodies_[body].is(Body::frozen));
     bodies_.set_flags(body, Body::frozen);

@@ -10,6 +10,7 @@
 
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/impact_history.h"
+#include "game/physics/bodies/observers.h"
 #include "game/physics/body_state.h"
 #include "game/physics/real.h"
 
@@ -24,7 +25,8 @@ struct JamTable {
 /// No body is in two jams at once.
 class Jams {
  public:
-  Jams(Bodies& bodies, ImpactHistory& history) : bodies_(bodies), history_(history) {}
+  Jams(Bodies& bodies, ImpactHistory& history, const Observers& observers)
+      : bodies_(bodies), history_(history), observers_(observers) {}
   Jams(const Jams&) = delete;
   Jams& operator=(const Jams&) = delete;
 
@@ -38,9 +40,12 @@ class Jams {
     assert(table.numbers.size() == bodies_.count());
     table_ = std::move(table);
   }
-  /// Bodies restored by write(), in the order in which they had been frozen.
+  /// Bodies restored by write(), in the order in which they had been frozen; of `frozen` those that
+  /// still are, for some may have been dropped since.
   void restore(const std::vector<std::uint32_t>& frozen, std::uint32_t count) {
     table_.frozen = frozen, table_.count = count;
+    std::erase_if(table_.frozen,
+                  [this](std::uint32_t body) { return !bodies_[body].is(Body::frozen); });
   }
   void read(std::uint32_t body, BodyState& state) const;
   /// And lists it, if it is frozen, or not any more.
@@ -59,8 +64,10 @@ class Jams {
   template <class Visit>
   void for_each_other(std::uint32_t body, Visit&& visit) const {
     if (!bodies_[body].is(Body::frozen)) return;
-    for (const std::uint32_t other : table_.frozen)
+    for (const std::uint32_t other : table_.frozen) {
+      assert(other < table_.numbers.size());
       if (other != body && table_.numbers[other] == table_.numbers[body]) visit(other);
+    }
   }
 
  private:
@@ -68,6 +75,7 @@ class Jams {
 
   Bodies& bodies_;
   ImpactHistory& history_;
+  const Observers& observers_;
   JamTable table_;
 };
 

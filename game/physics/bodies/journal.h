@@ -2,9 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "game/physics/bodies/partner.h"
 #include "game/physics/body_state.h"
 #include "game/physics/counters.h"
 #include "game/physics/real.h"
@@ -23,7 +26,8 @@ struct Change {
   std::uint32_t motion;       ///< in Journal::motions; `straight` if it flies freely
 };
 
-/// Kept by a world for the subdomain that looks at it (subdomain.h).
+/// Kept by a world for the subdomain that looks at it (subdomain.h). The world calls bodies by
+/// their slots in it; what is entered calls them by their numbers in the whole.
 struct Journal {
   /// A rectangle, sides included [m].
   struct Room {
@@ -36,19 +40,20 @@ struct Journal {
   std::vector<Change> changes;
   std::vector<Motion>
       motions;  ///< of those that went on along a curve, or have companions, or are out of play
-  std::vector<std::uint32_t> looked_at;  ///< by the event at hand
+  std::vector<std::uint32_t> looked_at;  ///< by the event at hand: slots
   std::uint32_t event = 0;
   std::uint64_t mixed_digest =
       0;               ///< a digest of what the event at hand does to the rhythm of impacts
   Real time = 0.0;     ///< of it
   Real played = -1.0;  ///< the instant at which advance() began, if it had been there
-  std::uint64_t at_once_max = 0;   ///< the most events at one instant
-  std::vector<Real> times;         ///< of all events that are counted so
-  bool had_solver_failed = false;  ///< a joint impact could not be solved
+  std::uint64_t at_once_max = 0;       ///< the most events at one instant
+  std::vector<Real> times;             ///< of all events that are counted so
+  std::vector<std::uint32_t> counted;  ///< the numbers of these events, as in Change
+  std::vector<Real> unsolved;          ///< when a joint impact could not be solved
   // Free impacts of bodies that stay far from all that the reader cares for are counted, not
   // entered.
-  std::vector<std::uint8_t>
-      rooms_of;  ///< by body: 1 + the room in which it is; 0 if all that happens to it is entered
+  std::vector<std::uint8_t> rooms_of;  ///< by slot: 1 + the room in which the body is; 0 if all
+                                       ///< that happens to it is entered
   std::vector<Room> rooms;
   Real quiet_until =
       -1.0;  ///< [s] up to which a body must stay in its room if nothing else happens to it
@@ -56,16 +61,23 @@ struct Journal {
   std::vector<std::uint32_t> entered;  ///< bodies that were in a room until something was entered
                                        ///< of them: from then on all is
   RestContactAge age;
+  std::span<const std::uint32_t> numbers;  ///< by slot: of the body in the whole
 
-  /// A body as an event leaves it.
+  std::uint32_t number_of(std::uint32_t slot) const {
+    assert(slot < numbers.size());
+    return numbers[slot];
+  }
+
+  /// A body, by its slot, as an event leaves it.
   struct Entry {
     std::uint32_t body;
     const Flight& flight;
     std::uint64_t conditions;
   };
   void enter(const Entry& entry) {
-    const auto& [body, f, conditions] = entry;
-    if (rooms_of[body] != 0) rooms_of[body] = 0, entered.push_back(body);
+    const auto& [slot, f, conditions] = entry;
+    const std::uint32_t body = number_of(slot);
+    if (rooms_of[slot] != 0) rooms_of[slot] = 0, entered.push_back(body);
     changes.push_back(
         {time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, Change::straight});
   }
@@ -81,14 +93,20 @@ struct Journal {
     else enter(low), enter(high);
     ++event;
   }
-  /// The event that is about to be processed.
-  void begin_event(Real at, std::uint32_t lower, std::uint32_t higher) {
-    const RestContactAge next{static_cast<double>(at), at <= played, lower, higher, 0};
+  /// The event that is about to be processed, of these slots or parts of the field.
+  void begin_event(Real at, Partner lower, Partner higher) {
+    const auto named = [this](Partner p) { return is_body(p) ? number_of(p) : p; };
+    const RestContactAge next{static_cast<double>(at), at <= played, named(lower), named(higher),
+                              0};
     age = next.time == age.time ? std::max(age, next) : next;
     time = at;
   }
-  void mix_digest(std::uint32_t body, std::uint32_t count) {
-    mixed_digest += ((std::uint64_t{body} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
+  void count_event(Real at, std::uint64_t at_once) {
+    at_once_max = std::max(at_once_max, at_once);
+    times.push_back(at), counted.push_back(event);
+  }
+  void mix_digest(std::uint32_t slot, std::uint32_t count) {
+    mixed_digest += ((std::uint64_t{number_of(slot)} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
   }
   RestContactAge next_age() {
     ++age.rank;

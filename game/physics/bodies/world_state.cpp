@@ -46,7 +46,7 @@ bool exchange(Stream& stream, std::optional<SurfaceFriction>& friction) {
 template <class Stream>
 bool exchange(Stream& stream, Field& field) {
   auto& [length, width, goal_width, wall, bats_keep_to_half] = field;
-  return stream.numbers(length, width, goal_width, wall) && stream.truth(bats_keep_to_half) &&
+  return exchange_all(stream, length, width, goal_width, wall) && stream.truth(bats_keep_to_half) &&
          length > 0.0 && width > 0.0 && goal_width >= 0.0 && goal_width <= width;
 }
 
@@ -56,7 +56,7 @@ bool exchange(Stream& stream, WorldSpec& spec) {
          contact_time, cell_size, queue, slabs, allow_overlap] = spec;
   static_cast<void>(slabs);  // whoever restores a world says how it is played
   return exchange(stream, field) &&
-         stream.numbers(puck_drag, bat_drag, puck_friction, contact_time, cell_size) &&
+         exchange_all(stream, puck_drag, bat_drag, puck_friction, contact_time, cell_size) &&
          exchange_table(stream, restitution, 1.0) && exchange(stream, surface_friction) &&
          stream.choice(queue, QueuePolicy::windows) && stream.truth(accounts_energy) &&
          stream.truth(allow_overlap) && puck_friction >= 0.0 && puck_drag >= 0.0 &&
@@ -70,9 +70,9 @@ bool exchange(Stream& stream, Counters& counters) {
          turns, joint, at_once, hop_energy, crossings, stale, predictions, evaluations, touched,
          slabs] = counters;
   static_cast<void>(slabs);
-  return stream.numbers(disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops,
-                        freezes, stops, turns, joint, at_once, hop_energy, crossings, stale,
-                        predictions, evaluations, touched);
+  return exchange_all(stream, disc, post, wall, bat, bat_bat, goals, thrust, rests, releases, hops,
+                      freezes, stops, turns, joint, at_once, hop_energy, crossings, stale,
+                      predictions, evaluations, touched);
 }
 
 /// Of one body, in all the arrays that have an entry for it.
@@ -83,28 +83,28 @@ bool exchange_body(Stream& stream, Body& body, BodyShape& build, ForceLaw& law,
   auto& [mass, inverse_mass, half_extent, thrust, half] = build;
   auto& [acceleration, drag] = law;
   auto& [window_start, last_hop, impacts, hops, repeats, first_contacts] = counts;
-  return stream.numbers(x, y, vx, vy, time, radius, body.inverse_mass, body.version) &&
+  return exchange_all(stream, x, y, vx, vy, time, radius, body.inverse_mass, body.version) &&
          stream.choice(body.kind, BodyKind::post) &&
-         stream.numbers(body.material, body.flags, body.mouth, mass, inverse_mass) &&
-         stream.numbers(half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) &&
+         exchange_all(stream, body.material, body.flags, body.mouth, mass, inverse_mass) &&
+         exchange_all(stream, half_extent.x(), half_extent.y(), thrust.x(), thrust.y()) &&
          stream.choice(half, Half::both) &&
-         stream.numbers(acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start,
-                        last_hop, impacts, hops, repeats.instant, repeats.count,
-                        first_contacts.instant, first_contacts.count);
+         exchange_all(stream, acceleration.x(), acceleration.y(), drag.x(), drag.y(), window_start,
+                      last_hop, impacts, hops, repeats.instant, repeats.count,
+                      first_contacts.instant, first_contacts.count);
 }
 
 template <class Stream>
 bool exchange_hold(Stream& stream, RestContact& rest) {
   auto& [low, high, axis, pull_time, force, turn_time, age] = rest;
   static_cast<void>(age);  // they stand in order of it
-  return stream.numbers(low, high, axis, pull_time, force, turn_time);
+  return exchange_all(stream, low, high, axis, pull_time, force, turn_time);
 }
 
 /// The specification apart, which comes first.
 template <class Stream>
 bool exchange_state(Stream& stream, WorldState& state) {
   auto& [spec, clock, counters, table, impact_counts, jams, ledger, rest_contacts] = state;
-  if (!stream.numbers(clock.now, jams.count, clock.instant_begin, clock.events_at_once) ||
+  if (!exchange_all(stream, clock.now, jams.count, clock.instant_begin, clock.events_at_once) ||
       !stream.truth(clock.is_played) || !stream.truth(clock.solver_failed) ||
       !exchange(stream, counters))
     return false;
@@ -120,11 +120,11 @@ bool exchange_state(Stream& stream, WorldState& state) {
   if (spec.puck_friction > 0.0) rest_times.resize(count), slowings.resize(count);
   if (spec.surface_friction) spins.resize(count);
   for (Real& time : rest_times)
-    if (!stream.number(time)) return false;
+    if (!exchange_all(stream, time)) return false;
   for (RealVector& slowing : slowings)
-    if (!stream.numbers(slowing.x(), slowing.y())) return false;
+    if (!exchange_all(stream, slowing.x(), slowing.y())) return false;
   for (Real& spin : spins)
-    if (!stream.number(spin)) return false;
+    if (!exchange_all(stream, spin)) return false;
   if (!ledger.exchange(stream)) return false;
   for (RestContact& rest : rest_contacts)
     if (!exchange_hold(stream, rest)) return false;
@@ -180,21 +180,25 @@ bool is_sound(const WorldState& state) {
 }  // namespace
 
 std::vector<std::uint8_t> to_snapshot(WorldState state) {
-  SnapshotWriter writer;
+  std::vector<std::uint8_t> bytes;
+  SnapshotWriter writer(bytes);
   std::uint64_t kind = magic;
   std::uint32_t format = version, digits = std::numeric_limits<Real>::digits;
   writer.numbers(kind, format, digits);
   exchange(writer, state.spec);
   exchange_state(writer, state);
-  return writer.finish();
+  add_checksum(bytes);
+  return bytes;
 }
 
 std::optional<WorldState> from_snapshot(std::span<const std::uint8_t> bytes) {
-  SnapshotReader reader(bytes);
+  const auto content = without_checksum(bytes);
+  if (!content) return std::nullopt;
+  ByteReader reader(*content);
   std::uint64_t kind = 0;
   std::uint32_t format = 0, digits = 0;
-  if (!reader.is_intact() || !reader.numbers(kind, format, digits) || kind != magic ||
-      format != version || digits != std::numeric_limits<Real>::digits)
+  if (!reader.numbers(kind, format, digits) || kind != magic || format != version ||
+      digits != std::numeric_limits<Real>::digits)
     return std::nullopt;
   std::optional<WorldState> state(std::in_place);
   if (!exchange(reader, state->spec)) return std::nullopt;

@@ -96,18 +96,26 @@ Real ActiveSet::orthogonalise(const ContactProblem& problem, const Touch& touch)
   column_.assign(pushing_.size(), 0.0);
   for (int pass = 0; pass < 2; ++pass)
     for (std::size_t k = 0; k < pushing_.size(); ++k) {
-      const Real share = problem.product(basis_[k], direction_);
+      const std::vector<RealVector>& field = basis_[k];
+      Real share = 0.0;
+      for (const std::uint32_t place : supports_[k])
+        share += problem.masses[place] * field[place].dot(direction_[place]);
       column_[k] += share;
-      for (std::size_t place = 0; place < direction_.size(); ++place)
-        direction_[place] -= share * basis_[k][place];
+      for (const std::uint32_t place : supports_[k]) direction_[place] -= share * field[place];
     }
   return own;
 }
 
 void ActiveSet::append(std::uint32_t touch, Real length) {
   const std::size_t count = pushing_.size();
-  if (basis_.size() <= count) basis_.emplace_back(), columns_.emplace_back();
-  for (RealVector& part : direction_) part /= length;
+  if (basis_.size() <= count)
+    basis_.emplace_back(), supports_.emplace_back(), columns_.emplace_back();
+  supports_[count].clear();
+  for (std::uint32_t place = 0; place < direction_.size(); ++place) {
+    if (direction_[place] == RealVector(0.0, 0.0)) continue;
+    direction_[place] /= length;
+    supports_[count].push_back(place);
+  }
   basis_[count] = direction_;
   column_.push_back(length);
   assert(column_.size() == count + 1);  // the next side of the triangle

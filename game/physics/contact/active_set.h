@@ -52,6 +52,8 @@ class ActiveSet {
   std::vector<std::uint32_t> pushing_;
   std::uint32_t blocked_ = fixed_place;
   std::vector<std::vector<RealVector>> basis_;  // one field of velocities for each that pushes
+  /// Where these are not 0, ascending: among those that contacts before had connected.
+  std::vector<std::vector<std::uint32_t>> supports_;
   std::vector<std::vector<Real>> columns_;  // each one's effect in terms of the basis: a triangle
   // Of the touch that is looked at: the part of its effect beyond the basis, the part within, and
   // the impulses of those that push that make up the latter.

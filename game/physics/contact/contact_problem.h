@@ -86,6 +86,11 @@ inline Real parting(const Touch& touch, const std::vector<RealVector>& velocitie
 /// anything seen.
 constexpr Real separation_min = 1e-14 * fineness;
 
+/// At which bodies of these velocities part at least, times `distance` [m^2/s].
+inline Real least_parting(const RealVector& one, const RealVector& other, Real distance) {
+  return separation_min * (one.norm() + other.norm()) * distance;
+}
+
 /// Relative to the speeds: what closes more slowly does not close, and lacks no more of what is
 /// wanted than a quarter of it.
 constexpr Real rest_of_closing = 4e-13 * fineness;

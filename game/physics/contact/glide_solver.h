@@ -28,6 +28,9 @@ struct Glide {
 /// half-way. Keeps its memory from one problem to the next.
 class GlideSolver {
  public:
+  /// Where the caller solves problems of the same touches with `interior`, it knows them already.
+  explicit GlideSolver(InteriorPoint& interior) : interior_(interior) {}
+
   /// `drives` are in order of the problem's bodies, whose velocities part all contacts. False if no
   /// such forces were found.
   bool solve(const ContactProblem& problem, std::span<const Drive> drives, const Glide& glide);
@@ -53,7 +56,7 @@ class GlideSolver {
   Real work_of(const ContactProblem& problem, const Touch& force, Real duration) const;
 
   ActiveSet set_;
-  InteriorPoint interior_;
+  InteriorPoint& interior_;
   ContactProblem forces_;  // accelerations instead of velocities
   std::vector<RealVector> accelerations_;
   std::vector<std::uint32_t> all_;  // touches

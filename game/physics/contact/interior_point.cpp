@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -25,8 +26,7 @@ void for_each_side(const Touch& touch, auto&& visit) {
 bool InteriorPoint::solve(ContactProblem& problem, Real accuracy) {
   problem.check();
   assert(accuracy > 0.0 && problem.body_count() > 0);
-  order(problem);
-  lay_out(problem);
+  springs_.lay_out(problem);
   start(problem);
   for (int step = 0; step < steps_max; ++step) {
     find_residuals(problem);
@@ -35,70 +35,12 @@ bool InteriorPoint::solve(ContactProblem& problem, Real accuracy) {
       return true;
     }
     stiffen(problem);
-    factorise();
     find_direction(problem, 0.0, false);
     const Real share = mean_after(longest_step()) / mean_;
     find_direction(problem, share * share * share * mean_, true);
     go(problem, std::min<Real>(1.0, short_of_edge * longest_step()));
   }
   return false;
-}
-
-/// Bodies by their distance from one that is as far from others as any: who touch each other then
-/// have places near each other (Cuthill and McKee 1969).
-void InteriorPoint::order(const ContactProblem& problem) {
-  const std::size_t count = problem.body_count();
-  neighbour_begins_.assign(count + 2, 0);
-  for (const Touch& touch : problem.touches)
-    if (touch.other != fixed_place)
-      for_each_side(touch, [&](std::uint32_t place, Real) { ++neighbour_begins_[place + 2]; });
-  for (std::size_t i = 2; i < count + 2; ++i) neighbour_begins_[i] += neighbour_begins_[i - 1];
-  neighbours_.resize(neighbour_begins_[count + 1]);
-  for (const Touch& touch : problem.touches) {
-    if (touch.other == fixed_place) continue;
-    neighbours_[neighbour_begins_[touch.body + 1]++] = touch.other;
-    neighbours_[neighbour_begins_[touch.other + 1]++] = touch.body;
-  }
-  visit_from(visit_from(0, count), count);
-  std::reverse(order_.begin(), order_.end());
-  for (std::uint32_t row = 0; row < count; ++row) places_[order_[row]] = row;
-}
-
-/// Fills the order, and answers who comes last.
-std::uint32_t InteriorPoint::visit_from(std::uint32_t first, std::size_t body_count) {
-  order_.clear();
-  places_.assign(body_count, fixed_place);
-  const auto list = [&](std::uint32_t body) {
-    if (places_[body] != fixed_place) return;
-    places_[body] = static_cast<std::uint32_t>(order_.size());
-    order_.push_back(body);
-  };
-  list(first);
-  for (std::uint32_t rest = 0, next = 0; order_.size() < body_count; ++next) {
-    if (next == order_.size()) {
-      while (places_[rest] != fixed_place) ++rest;
-      list(rest);
-    }
-    const std::uint32_t body = order_[next];
-    for (std::uint32_t i = neighbour_begins_[body]; i < neighbour_begins_[body + 1]; ++i)
-      list(neighbours_[i]);
-  }
-  return order_.back();
-}
-
-void InteriorPoint::lay_out(const ContactProblem& problem) {
-  const auto count = static_cast<std::uint32_t>(problem.body_count());
-  firsts_.resize(count), begins_.resize(count);
-  for (std::uint32_t row = 0; row < count; ++row) firsts_[row] = row;
-  for (const Touch& touch : problem.touches) {
-    if (touch.other == fixed_place) continue;
-    const auto [low, high] = std::minmax(places_[touch.body], places_[touch.other]);
-    firsts_[high] = std::min(firsts_[high], low);
-  }
-  std::size_t size = 0;
-  for (std::uint32_t row = 0; row < count; ++row)
-    begins_[row] = size, size += row - firsts_[row] + 1;
-  squares_.resize(size);
 }
 
 /// Far from all edges.
@@ -144,107 +86,28 @@ bool InteriorPoint::is_solved(Real accuracy) const {
                      [&](const RealVector& r) { return r.norm() <= accuracy * push_; });
 }
 
-/// The masses, and each contact as a spring: the harder it pushes and the less it is open, the
-/// stiffer.
+/// Each contact is a spring: the harder it pushes and the less it is open, the stiffer.
 void InteriorPoint::stiffen(const ContactProblem& problem) {
-  std::fill(squares_.begin(), squares_.end(), Square{});
-  for (std::uint32_t row = 0; row < order_.size(); ++row) {
-    const Real mass = problem.masses[order_[row]];
-    at(row, row) = {mass, 0.0, 0.0, mass};
-  }
-  for (std::size_t i = 0; i < impulses_.size(); ++i) {
-    const Touch& touch = problem.touches[i];
-    const Real stiffness = impulses_[i] / slacks_[i], x = touch.normal.x(), y = touch.normal.y();
-    const Square spring{stiffness * x * x, stiffness * x * y, stiffness * x * y, stiffness * y * y};
-    const auto add = [&](Square& square, Real sign) {
-      for (std::size_t k = 0; k < 4; ++k) square[k] += sign * spring[k];
-    };
-    for_each_side(touch,
-                  [&](std::uint32_t body, Real) { add(at(places_[body], places_[body]), 1.0); });
-    if (touch.other == fixed_place) continue;
-    const auto [low, high] = std::minmax(places_[touch.body], places_[touch.other]);
-    add(at(high, low), -1.0);
-  }
-}
-
-void InteriorPoint::factorise() {
-  for (std::uint32_t row = 0; row < order_.size(); ++row) reduce(row);
-}
-
-/// One row of pairs of the triangle, from those before.
-void InteriorPoint::reduce(std::uint32_t row) {
-  Square* const own = &squares_[begins_[row]];
-  const std::uint32_t first = firsts_[row];
-  for (std::uint32_t column = first; column <= row; ++column) {
-    const std::uint32_t low = std::max(first, firsts_[column]);
-    const Square *a = own + (low - first), *b = &at(column, low);
-    Real s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
-    for (std::uint32_t k = low; k < column; ++k, ++a, ++b) {
-      s0 += (*a)[0] * (*b)[0] + (*a)[1] * (*b)[1];
-      s1 += (*a)[0] * (*b)[2] + (*a)[1] * (*b)[3];
-      s2 += (*a)[2] * (*b)[0] + (*a)[3] * (*b)[1];
-      s3 += (*a)[2] * (*b)[2] + (*a)[3] * (*b)[3];
-    }
-    Square& square = own[column - first];
-    square[0] -= s0, square[1] -= s1, square[2] -= s2, square[3] -= s3;
-    const Real least = std::numeric_limits<Real>::min();
-    if (column == row) {
-      square[0] = std::sqrt(std::max(least, square[0]));
-      square[2] /= square[0], square[1] = 0.0;
-      square[3] = std::sqrt(std::max(least, square[3] - square[2] * square[2]));
-    } else {
-      const Square& corner = at(column, column);
-      square[0] /= corner[0], square[2] /= corner[0];
-      square[1] = (square[1] - square[0] * corner[2]) / corner[3];
-      square[3] = (square[3] - square[2] * corner[2]) / corner[3];
-    }
-  }
-}
-
-/// Forwards through the triangle and back.
-void InteriorPoint::substitute() {
-  const auto count = static_cast<std::uint32_t>(order_.size());
-  for (std::uint32_t row = 0; row < count; ++row) {
-    RealVector sum = right_[row];
-    for (std::uint32_t column = firsts_[row]; column < row; ++column) {
-      const Square& s = at(row, column);
-      const RealVector& x = right_[column];
-      sum.x() -= s[0] * x.x() + s[1] * x.y(), sum.y() -= s[2] * x.x() + s[3] * x.y();
-    }
-    const Square& corner = at(row, row);
-    const Real first = sum.x() / corner[0];
-    right_[row] = {first, (sum.y() - corner[2] * first) / corner[3]};
-  }
-  for (std::uint32_t row = count; row-- > 0;) {
-    const Square& corner = at(row, row);
-    const Real second = right_[row].y() / corner[3];
-    const RealVector x((right_[row].x() - corner[2] * second) / corner[0], second);
-    right_[row] = x;
-    for (std::uint32_t column = firsts_[row]; column < row; ++column) {
-      const Square& s = at(row, column);
-      right_[column].x() -= s[0] * x.x() + s[2] * x.y();
-      right_[column].y() -= s[1] * x.x() + s[3] * x.y();
-    }
-  }
+  springs_.clear(problem);
+  for (std::size_t i = 0; i < impulses_.size(); ++i)
+    springs_.add_spring(problem, i, impulses_[i] / slacks_[i]);
+  springs_.factorise();
 }
 
 /// Towards impulse times slack = `target` everywhere; `corrects` what the changes at hand, each
 /// times the other, would add to that.
 void InteriorPoint::find_direction(const ContactProblem& problem, Real target, bool corrects) {
-  right_.resize(order_.size());
-  for (std::size_t row = 0; row < order_.size(); ++row) right_[row] = -residuals_[order_[row]];
+  changes_.resize(residuals_.size());
+  std::transform(residuals_.begin(), residuals_.end(), changes_.begin(), std::negate<>());
   for (std::size_t i = 0; i < impulses_.size(); ++i) {
     const Touch& touch = problem.touches[i];
     Real& excess = impulse_changes_[i];
     excess = impulses_[i] * slacks_[i] - target +
              (corrects ? impulse_changes_[i] * slack_changes_[i] : Real(0.0));
     const RealVector push = ((impulses_[i] * lacking_[i] - excess) / slacks_[i]) * touch.normal;
-    for_each_side(touch,
-                  [&](std::uint32_t body, Real sign) { right_[places_[body]] += sign * push; });
+    for_each_side(touch, [&](std::uint32_t body, Real sign) { changes_[body] += sign * push; });
   }
-  substitute();
-  changes_.resize(order_.size());
-  for (std::size_t row = 0; row < order_.size(); ++row) changes_[order_[row]] = right_[row];
+  springs_.solve(changes_);
   for (std::size_t i = 0; i < impulses_.size(); ++i) {
     slack_changes_[i] = parting(problem.touches[i], changes_) - lacking_[i];
     impulse_changes_[i] = -(impulse_changes_[i] + impulses_[i] * slack_changes_[i]) / slacks_[i];

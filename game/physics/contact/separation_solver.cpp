@@ -41,7 +41,16 @@ Real energy_against(const ContactProblem& problem, const RealVector& frame) {
   return sum;
 }
 
-/// The velocity of the common centre of mass; none where the cluster leans on something fixed.
+bool closes_fixed(const ContactProblem& problem, const RealVector& velocity) {
+  const Real least = -1e-12 * fineness * velocity.norm();
+  return std::any_of(problem.touches.begin(), problem.touches.end(), [&](const Touch& c) {
+    return c.other == fixed_place && c.normal.dot(velocity) < least;
+  });
+}
+
+/// The velocity that all bodies together keep whatever they pay: the nearest to that of the common
+/// centre of mass at which nothing fixed is run into. What is fixed can take only the rest of the
+/// momentum, for it pushes along its normals and does not pull.
 RealVector frame_of(const ContactProblem& problem) {
   Real mass = 0.0;
   RealVector momentum(0.0, 0.0);
@@ -49,23 +58,45 @@ RealVector frame_of(const ContactProblem& problem) {
     mass += problem.masses[place];
     momentum += problem.masses[place] * problem.velocities[place];
   }
-  const bool is_leaning = std::any_of(problem.touches.begin(), problem.touches.end(),
-                                      [](const Touch& c) { return c.other == fixed_place; });
-  return is_leaning ? RealVector(0.0, 0.0) : RealVector(momentum / mass);
+  const RealVector common = momentum / mass;
+  if (!closes_fixed(problem, common)) return common;
+  for (const Touch& c : problem.touches) {
+    if (c.other != fixed_place || !(c.normal.dot(common) < 0.0)) continue;
+    const RealVector along = common - c.normal.dot(common) * c.normal;
+    if (!closes_fixed(problem, along)) return along;
+  }
+  return {0.0, 0.0};
+}
+
+/// What the impulses of all that is fixed do in that frame [J]: never below 0, and above where
+/// something fixed pushes bodies that leave it.
+Real work_of_fixed(const ContactProblem& problem, const RealVector& frame) {
+  Real sum = 0.0;
+  for (const Touch& c : problem.touches)
+    if (c.other == fixed_place) sum += c.impulse * std::max<Real>(0.0, c.normal.dot(frame));
+  return sum;
+}
+
+/// The root of share^2 `square` + share `linear` = `whole`, which is at most their sum.
+Real share_of(Real whole, Real square, Real linear) {
+  assert(square > 0.0 && linear >= 0.0 && whole >= 0.0);
+  const Real half = 0.5 * linear / square, root = std::sqrt(whole / square + half * half);
+  return half > 0.0 ? std::min<Real>(1.0, whole / square / (half + root)) : root;
 }
 
 }  // namespace
 
+/// With the velocities v = frame + share (v' - frame), energy is that of the frame, share times the
+/// work of what is fixed, and share^2 times the energy against the frame.
 Real SeparationSolver::part(ContactProblem& problem, Real separation, Real gain_max) {
   assert(!(separation < 0.0) && !(gain_max < 0.0) && problem.body_count() > 0);
   problem.check();
   const RealVector frame = frame_of(problem);
   const Real energy_before = energy_against(problem, frame), energy_max = energy_before + gain_max;
   separate(problem, separation);
-  const Real energy_after = energy_against(problem, frame);
-  if (!(energy_after > energy_max)) return energy_after - energy_before;
-  const Real share = std::sqrt(energy_max / energy_after);
-  assert(share <= 1.0);
+  const Real energy_after = energy_against(problem, frame), work = work_of_fixed(problem, frame);
+  if (!(energy_after + work > energy_max)) return energy_after + work - energy_before;
+  const Real share = share_of(energy_max, energy_after, work);
   for (RealVector& velocity : problem.velocities) velocity = frame + share * (velocity - frame);
   return energy_max - energy_before;
 }

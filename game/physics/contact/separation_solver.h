@@ -15,9 +15,9 @@ namespace rink::physics::inline RINK_PRECISION {
 class SeparationSolver {
  public:
   /// Parts the cluster at `separation` [m/s]. Energy may grow by `gain_max` [J]; what it takes
-  /// beyond that, the bodies pay from their motion against each other (from all their motion where
-  /// the cluster leans on something fixed), which leaves the momentum and slows the parting in the
-  /// same measure. Answers by how much energy has grown; below 0 where it shrank.
+  /// beyond that, the bodies pay from their motion against each other and towards what is fixed,
+  /// which slows the parting in the same measure. The momentum changes by what the fixed contacts
+  /// push, and nothing pulls. Answers by how much energy has grown; below 0 where it shrank.
   Real part(ContactProblem& problem, Real separation, Real gain_max);
 
   /// Reads the velocities as the thrusts of the bodies [m/s^2]: what contacts, and friction of up

@@ -23,8 +23,7 @@ void Bounce::apply(const Contact& c, Real given_back, Real time) {
   const RealVector& line = c.gap.line;
   const Real square = line.squaredNorm(), length = std::sqrt(square),
              approach = line.dot(there - here);
-  const Real separation =
-      std::max(given_back * approach, separation_min * (here.norm() + there.norm()) * length);
+  const Real separation = std::max(given_back * approach, least_parting(here, there, length));
   const Real own = bodies_.inverse_mass(c.body), other = bodies_.inverse_mass(c.partner);
   const Real impulse = std::max<Real>(0.0, approach + separation) / ((own + other) * square);
   spec_.surface_friction ? rub(c, impulse * length) : push(c, impulse);

@@ -11,10 +11,12 @@ namespace rink::physics::inline RINK_PRECISION {
 namespace {
 constexpr double glancing_part = 16.0;     // of contact_time
 constexpr std::uint32_t long_series = 64;  // of hops
+constexpr std::uint32_t rattling_series = 16;
 constexpr double loose_gaps = 8.0;
 constexpr std::size_t gliding_max = 96;    // contacts
-constexpr std::size_t pile_min = 32;       // bodies besides one
 constexpr double glide_turn = 1.0 / 64.0;  // of a normal during a glide [rad]
+/// What a glide opens at most [m]: at its end the same bodies are a cluster still.
+constexpr double glide_room = 0.75 * cluster_gap;
 /// The least speed at which a hop parts contacts, relative to the speeds around: less than a few
 /// roundings would be none. Its energy, 1e-24 of what there is, is below rounding.
 constexpr Real parting_min = 1e-12 * fineness;
@@ -36,11 +38,19 @@ Clusters::Clusters(const WorldSpec& spec, const Uses& uses)
 bool Clusters::hop(const Contact& c, Real approach, Real pressing, Real time) {
   const Limits limits{cluster_gap, std::max<Real>(rest_speed_, 2.0 * approach)};
   gather(c, limits, time);
-  if (problem_.touches.size() > gliding_max && history_.hops(c.body) % 4 == 0) {
+  if (should_flow(c)) {
     if (flow(c, time)) return true;
     gather(c, limits, time);
   }
   return hop_gathered({c, approach, pressing}, limits, time);
+}
+
+/// Large clusters do, and small ones whose hops do not end because light bodies rattle between
+/// heavy ones, so that no glide of those who touch would last. At other hops they may freeze.
+bool Clusters::should_flow(const Contact& c) const {
+  const std::uint32_t hops = history_.hops(c.body);
+  if (problem_.touches.size() > gliding_max) return hops % 4 == 0;
+  return hops >= rattling_series && hops % 4 == 2 && history_.is_restless(c);
 }
 
 bool Clusters::hop_gathered(const Closing& closing, const Limits& limits, Real time) {
@@ -58,7 +68,7 @@ bool Clusters::hop_gathered(const Closing& closing, const Limits& limits, Real t
   const std::uint32_t hops = history_.hops(c.body) - 1;  // before this one
   const bool may_freeze = thrust > 0.0 && hops % 4 == 0,
              may_freeze_loosely = thrust > 0.0 && hops >= long_series && hops % 16 == 0;
-  bool is_frozen = may_freeze && freeze();
+  bool is_frozen = may_freeze && freeze(time);
   if (!is_frozen && may_freeze_loosely) {
     is_frozen = freeze_loosely(c, time);
     if (!is_frozen) gather(c, limits, time);
@@ -93,10 +103,8 @@ void Clusters::go_on(std::uint32_t body, Real time) {
   assert(bodies_[body].is(Body::frozen));
   const Contact c{body, partner::none, {}};
   const Limits limits{cluster_gap, rest_speed_};
-  std::size_t others = 0;
-  jams_.for_each_other(body, [&](std::uint32_t) { ++others; });
+  if (meet_within_pile(c, time)) return;
   rests_.rouse(body, time);
-  if (others >= pile_min && flow(c, time)) return;
   gather(c, limits, time);
   if (has_turning()) hop_gathered({c, 0.0, 0.0}, limits, time);
 }
@@ -120,10 +128,10 @@ bool Clusters::glide(const Contact& c, Real thrust, Real time) {
       problem_.touches.size() > gliding_max || history_.is_restless(c))
     return false;
   velocities_ = problem_.velocities;
-  Glide glide = glide_of(thrust, glide_turn);
+  Glide glide = glide_of(thrust, glide_turn, glide_room);
   const Real sum = glide.opening * static_cast<Real>(problem_.touches.size()),
              gain = solver_.part(problem_, glide.opening, 0.5 * mass() * sum * sum);
-  glide.duration = std::min(glide.duration, glide_of(thrust, glide_turn).duration);
+  glide.duration = std::min(glide.duration, glide_of(thrust, glide_turn, glide_room).duration);
   const bool is_jammed =
       std::any_of(problem_.touches.begin(), problem_.touches.end(),
                   [&](const Touch& touch) { return touch.wanted < glide.opening; });
@@ -150,8 +158,9 @@ void Clusters::begin_glide(const std::vector<RealVector>& accelerations, Real en
 
 /// As long as normals keep their directions within `glide_turn`, and no contact leaves its face.
 /// The opening makes room for what constant forces do to a gap on the way, (t/T)^2 (1 - t/T) of the
-/// third derivative times T^3/6, the normals turning as fast as they do at the end.
-Glide Clusters::glide_of(Real thrust, Real turn) const {
+/// third derivative times T^3/6, the normals turning as fast as they do at the end. It is at most
+/// `room` [m] if T is longer than `contact_time`.
+Glide Clusters::glide_of(Real thrust, Real turn, Real room) const {
   Real rate = 0.0, nearest = infinity, drag = 0.0;
   for (const Touch& touch : problem_.touches) {
     if (!(touch.reach > 0.0)) continue;
@@ -164,13 +173,17 @@ Glide Clusters::glide_of(Real thrust, Real turn) const {
     nearest = std::min(nearest, touch.reach);
   }
   for (const std::uint32_t body : members_) drag = std::max(drag, bodies_.own_drag(body));
-  const Real duration = std::clamp<Real>(
+  const auto opening = [&](Real duration) {
+    return (3.0 * (rate + thrust * duration / nearest) + drag) * thrust * duration * duration / 6.0;
+  };
+  Real duration = std::clamp<Real>(
       std::min({turn / rate, std::sqrt(2.0 * turn * nearest / thrust), clear_time_}), contact_time_,
       glide_max_);
-  rate += thrust * duration / nearest;
-  const Real opening = (3.0 * rate + drag) * thrust * duration * duration / 6.0;
+  for (Real excess = opening(duration) * duration / room; excess > 1.0 && duration > contact_time_;
+       excess = opening(duration) * duration / room)
+    duration = std::max(contact_time_, 0.99 * duration / std::sqrt(std::sqrt(excess)));
   return {duration, std::max(Real(parting_min) * problem_.speed(),
-                             std::min<Real>(opening, 0.5 * rest_speed_))};
+                             std::min<Real>(opening(duration), 0.5 * rest_speed_))};
 }
 
 void Clusters::stop_around(const Contact& c, Real time) {
@@ -229,9 +242,9 @@ Real Clusters::still_speed() const {
                         : Real(creep_speed);
 }
 
-std::uint32_t Clusters::place_of(std::uint32_t body, Real time) {
+std::uint32_t Clusters::place_of(std::uint32_t body, const Limits& limits, Real time) {
   if (is_member(body)) return places_[body];
-  rests_.free(body, time);
+  limits.sight > 0.0 ? rests_.rebase_group(body, time) : rests_.free(body, time);
   places_[body] = static_cast<std::uint32_t>(members_.size());
   members_.push_back(body);
   problem_.add_body(bodies_.build(body).mass, bodies_.build(body).inverse_mass,
@@ -260,7 +273,7 @@ void Clusters::add_contact(std::uint32_t place, Partner p, const Limits& limits,
   if (is_body(p)) limit_by_face(c, time);
   if (bodies_.is_fixed(p)) return problem_.touches.push_back(touch);
   if (!is_known && members_.size() >= limits.members) return;
-  touch.other = place_of(p, time);
+  touch.other = place_of(p, limits, time);
   problem_.touches.push_back(touch);
 }
 
@@ -293,24 +306,34 @@ void Clusters::gather(const Contact& c, const Limits& limits, Real time) {
   places_.resize(bodies_.count());
   problem_.clear();
   clear_time_ = infinity;
-  place_of(c.body, time);
-  if (!bodies_.is_fixed(c.partner)) place_of(c.partner, time);
+  place_of(c.body, limits, time);
+  if (!bodies_.is_fixed(c.partner)) place_of(c.partner, limits, time);
   for (std::uint32_t place = 0; place < members_.size() && clear_time_ >= limits.clear; ++place) {
     const auto add = [&](Partner p) { add_contact(place, p, limits, time); };
-    limits.sight > 0.0 ? detection_.visit_all_within(members_[place], limits.sight, add)
-                       : detection_.visit_partners(members_[place], add);
+    limits.sight > 0.0 ? detection_.visit_all_within(members_[place], limits.sight, time, add)
+                       : detection_.visit_partners_within(members_[place], limits.gap, time, add);
   }
 }
 
-/// Brings a slow cluster whose contacts and friction can bear all its thrust to a stop, for as long
-/// as nothing else acts on it. Answers whether it could.
-bool Clusters::freeze() {
+/// Ends what a slow cluster whose contacts and friction can bear all its thrust moves against
+/// itself, for as long as nothing else acts on it. Answers whether it could. It drifts on as one,
+/// for nothing takes its momentum, or stops where something fixed touches it, friction with the
+/// table holds it, or drag would part it.
+bool Clusters::freeze(Real time) {
   for (std::size_t place = 0; place < members_.size(); ++place) {
-    if (bodies_.velocity(members_[place]).norm() > rest_speed_) return false;
-    problem_.velocities[place] = bodies_.build(members_[place]).thrust;
+    problem_.velocities[place] = bodies_.velocity(members_[place]);
+    if (problem_.velocities[place].norm() > rest_speed_) return false;
   }
-  if (!solver_.bears(problem_, puck_friction_, 1e-6 * thrust_max())) return false;
-  jams_.stop(members_);
+  const bool may_drift = !bodies_.is_slowed() && share_drag();
+  const Real remaining = 1e-6 * thrust_max();
+  const std::optional<RealVector> common =
+      common_velocity(may_drift ? drift() : RealVector(0.0, 0.0), [&](const RealVector& velocity) {
+        load_thrust(velocity);
+        return solver_.bears(loads_, puck_friction_, remaining);
+      });
+  if (!common) return false;
+  if (common->norm() <= Real(creep_speed)) jams_.stop(members_);
+  else move_as_one(*common, time);
   return true;
 }
 
@@ -318,7 +341,7 @@ bool Clusters::freeze() {
 /// count as closed for the question whether it could stand. Leaves another cluster gathered.
 bool Clusters::freeze_loosely(const Contact& c, Real time) {
   gather(c, {loose_gaps * cluster_gap, infinity}, time);
-  return freeze();
+  return freeze(time);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

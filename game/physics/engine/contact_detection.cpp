@@ -31,6 +31,33 @@ Contact ContactDetection::contact(std::uint32_t body, Partner p, Real time) cons
   return {body, p, plane_of(spec_.field, p, extent, build.half).gap(position)};
 }
 
+namespace {
+
+/// Never wrong where the gap is not wider.
+bool may_be_within(const RoundedBox& shape, const RealVector& offset, Real gap) {
+  const Real reach = (shape.radius + gap) * (1.0 + 1e-9),  // rounding shall not decide
+      x = std::max<Real>(0.0, std::abs(offset.x()) - shape.half_extent.x()),
+             y = std::max<Real>(0.0, std::abs(offset.y()) - shape.half_extent.y());
+  return x * x + y * y <= reach * reach;
+}
+
+}  // namespace
+
+void ContactDetection::list_near(std::uint32_t body) {
+  near_.clear();
+  grid_.around(body, [&](std::uint32_t other) {
+    if (other != body) near_.push_back(other);
+  });
+}
+
+/// Before they are sorted and their contacts are found: most who are near are farther.
+void ContactDetection::keep_within(std::uint32_t body, Real gap, Real time) {
+  const RealVector here = position_at(body, time);
+  std::erase_if(near_, [&](std::uint32_t other) {
+    return !may_be_within(shape_of(bodies_, body, other), here - position_at(other, time), gap);
+  });
+}
+
 std::optional<Contact> ContactDetection::contact_within(std::uint32_t body, Partner p, Real gap,
                                                         Real time) const {
   if (!is_body(p)) {
@@ -39,10 +66,7 @@ std::optional<Contact> ContactDetection::contact_within(std::uint32_t body, Part
   }
   const RealVector offset = position_at(body, time) - position_at(p, time);
   const RoundedBox shape = shape_of(bodies_, body, p);
-  const Real reach = (shape.radius + gap) * (1.0 + 1e-9),  // rounding shall not decide
-      x = std::max<Real>(0.0, std::abs(offset.x()) - shape.half_extent.x()),
-             y = std::max<Real>(0.0, std::abs(offset.y()) - shape.half_extent.y());
-  if (x * x + y * y > reach * reach) return std::nullopt;
+  if (!may_be_within(shape, offset, gap)) return std::nullopt;
   const Contact c{body, p, shape.gap(offset)};
   return c.gap.distance > gap ? std::nullopt : std::optional(c);
 }

@@ -33,15 +33,20 @@ class ContactDetection {
   /// look for partners itself.
   template <class Visit>
   void visit_partners(std::uint32_t body, Visit&& visit);
-  /// The same, and everybody nearer than `gap` [m], however small the cells of the grid are. The
-  /// state of `body` is that of now.
+  /// Of the bodies only those with gaps up to `gap` [m] and the least bit more; as far as the cells
+  /// of the grid reach.
   template <class Visit>
-  void visit_all_within(std::uint32_t body, Real gap, Visit&& visit);
+  void visit_partners_within(std::uint32_t body, Real gap, Real time, Visit&& visit);
+  /// The same, however small the cells are. The state of `body` is that of now.
+  template <class Visit>
+  void visit_all_within(std::uint32_t body, Real gap, Real time, Visit&& visit);
   /// Whether a third body may touch one of the two: never missed, and hardly ever wrong.
   bool has_company(std::uint32_t body, Partner partner, Real time);
 
  private:
   RealVector position_at(std::uint32_t body, Real time) const;
+  void list_near(std::uint32_t body);
+  void keep_within(std::uint32_t body, Real gap, Real time);
   bool is_alone(std::uint32_t one, std::uint32_t two, Real time);
   bool has_third(std::uint32_t one, Partner two, Real time);
   template <class Visit>
@@ -57,17 +62,22 @@ class ContactDetection {
 
 template <class Visit>
 void ContactDetection::visit_partners(std::uint32_t body, Visit&& visit) {
-  near_.clear();
-  grid_.around(body, [&](std::uint32_t other) {
-    if (other != body) near_.push_back(other);
-  });
+  list_near(body);
+  visit_near_and_field(body, visit);
+}
+
+template <class Visit>
+void ContactDetection::visit_partners_within(std::uint32_t body, Real gap, Real time,
+                                             Visit&& visit) {
+  list_near(body);
+  keep_within(body, gap, time);
   visit_near_and_field(body, visit);
 }
 
 /// Small bodies are listed by their centres and reach no further than half a cell; wide ones stand
 /// wherever a small one may touch them.
 template <class Visit>
-void ContactDetection::visit_all_within(std::uint32_t body, Real gap, Visit&& visit) {
+void ContactDetection::visit_all_within(std::uint32_t body, Real gap, Real time, Visit&& visit) {
   near_.clear();
   const Body& b = bodies_[body];
   const RealVector extent =
@@ -79,6 +89,7 @@ void ContactDetection::visit_all_within(std::uint32_t body, Real gap, Visit&& vi
                [&](std::uint32_t other) {
                  if (other != body) near_.push_back(other);
                });
+  keep_within(body, gap, time);
   visit_near_and_field(body, visit);
 }
 

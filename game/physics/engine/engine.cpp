@@ -16,7 +16,7 @@ Engine::Engine(const WorldSpec& spec)
       ledger_(spec.accounts_energy),
       bodies_(spec, record_.counters(), ledger_, observers_),
       history_(spec, bodies_, observers_),
-      jams_(bodies_, history_),
+      jams_(bodies_, history_, observers_),
       places_(spec),
       rests_(spec, bodies_, jams_, record_, observers_),
       detection_(spec_, bodies_, places_.grid()),
@@ -54,6 +54,28 @@ Engine::Engine(const WorldSpec& spec)
         spec.surface_friction->tangential_restitution.material_count() ==
             spec.restitution.material_count())));
 }
+
+namespace {
+
+/// What holds all bodies in play, and a little more, so that it has some area; the whole field if
+/// there are none.
+CellGrid::Ground ground_of(const Bodies& bodies, const Field& field, Real now) {
+  double low_x = field.length, low_y = field.width, high_x = 0.0, high_y = 0.0;
+  for (std::uint32_t body = 0; body < bodies.count(); ++body) {
+    if (bodies[body].is(Body::gone)) continue;
+    const RealVector place = position_at(bodies, body, now);
+    const auto x = static_cast<double>(place.x()), y = static_cast<double>(place.y());
+    low_x = std::min(low_x, x), high_x = std::max(high_x, x);
+    low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+  }
+  if (low_x > high_x || low_y > high_y) return {0.0, 0.0, field.length, field.width};
+  const double more = std::max(field.length, field.width) / 64.0;
+  low_x = std::max(low_x - more, 0.0), high_x = std::min(high_x + more, field.length);
+  low_y = std::max(low_y - more, 0.0), high_y = std::min(high_y + more, field.width);
+  return {low_x, low_y, high_x - low_x, high_y - low_y};
+}
+
+}  // namespace
 
 /// In a grid made anew if this one has no room for one of its size.
 void Engine::list(std::uint32_t body, const RealVector& position) {
@@ -116,6 +138,8 @@ void Engine::rebuild_from_state() {
 }
 
 void Engine::rebuild_grid() {
+  // A subdomain has bodies in a part of the field.
+  if (observers_.journal != nullptr) places_.cover(ground_of(bodies_, spec_.field, clock_.now));
   SizeClasses sizes;
   for (std::uint32_t body = 0; body < bodies_.count(); ++body)
     if (!bodies_[body].is(Body::removed))
@@ -160,6 +184,7 @@ void Engine::remove(std::uint32_t body) {
   if (bodies_[body].is(Body::removed)) return;
   bodies_.keep(body);
   if (!bodies_[body].is(Body::out_of_play)) {
+    if (bodies_.is_fixed(body)) impact_.leave(body, clock_.now);
     rests_.free(body, clock_.now);
     ledger_.introduce(-energy_of(bodies_, body));
     places_.remove(body);
@@ -269,10 +294,7 @@ void Engine::count_event(Real time) {
   clock_.count_event(time);
   record_.counters().events_at_once_max =
       std::max(record_.counters().events_at_once_max, clock_.events_at_once);
-  if (observers_.journal != nullptr)
-    observers_.journal->at_once_max =
-        std::max(observers_.journal->at_once_max, clock_.events_at_once),
-    observers_.journal->times.push_back(time);
+  if (observers_.journal != nullptr) observers_.journal->count_event(time, clock_.events_at_once);
 }
 
 void Engine::settle() {

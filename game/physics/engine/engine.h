@@ -60,6 +60,7 @@ class Engine {
     return {spec_,    clock_, observers_, record_, ledger_, bodies_,
             history_, jams_,  places_,    rests_,  events_};
   }
+  void require_prediction(std::uint32_t body);  ///< its next event is predicted anew
   void predict_pending();
   /// The first event of all, that of `body`.
   void process(std::uint32_t body, Real time);
@@ -111,7 +112,6 @@ class Engine {
   void list(std::uint32_t body, const RealVector& position);
   void rebuild_grid();
   void enter_mouth_if_inside(std::uint32_t body);
-  void require_prediction(std::uint32_t body);
   [[gnu::always_inline]] inline void cross_cell(std::uint32_t body);
   /// As process(body, time of its event), which is then charged.
   void process(std::uint32_t body, EventBudget& budget);

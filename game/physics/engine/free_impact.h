@@ -47,10 +47,12 @@ struct BounceLaw {
   const Real approach = x * (bvx - avx) + y * (bvy - avy), length_max = std::abs(x) + std::abs(y),
              square = x * x + y * y;
   const Real speed_max = std::abs(avx) + std::abs(avy) + std::abs(bvx) + std::abs(bvy);
-  const Real parting = law.given_back * approach;
-  if (!(approach >= 1.01 * law.rest_speed * length_max &&
-        parting >= 1.01 * (separation_min * speed_max) * length_max))
-    return std::nullopt;
+  Real parting = law.given_back * approach;
+  if (!(approach >= 1.01 * law.rest_speed * length_max)) return std::nullopt;
+  if (!(parting >= 1.01 * (separation_min * speed_max) * length_max)) {
+    if (law.given_back != 0.0) return std::nullopt;
+    parting = least_parting({avx, avy}, {bvx, bvy}, std::sqrt(square));
+  }
   const Real impulse = (approach + parting) / ((a.inverse_mass + b.inverse_mass) * square);
   const Real kick_a = impulse * a.inverse_mass, kick_b = impulse * b.inverse_mass;
   bodies.restart(low, {ax, ay}, {avx + kick_a * x, avy + kick_a * y}, std::max(a.time, time));

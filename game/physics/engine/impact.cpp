@@ -52,6 +52,7 @@ void Impact::collide(std::uint32_t body, Partner p, Real time, bool is_crowded) 
 /// The body can move; of two that can, it is the one with the lower number.
 void Impact::collide_ordered(std::uint32_t body, Partner p, Real time, bool is_crowded) {
   record_.note(impact_kind(bodies_, body, p), time, body, p);
+  if (clusters_.meet_within_pile({body, p, {}}, time)) return;
   rests_.rouse(body, time);
   if (is_body(p)) rests_.rouse(p, time);
   const Contact c = detection_.contact(body, p, time);

@@ -43,6 +43,8 @@ class Impact {
   void collide(std::uint32_t body, Partner partner, Real time, bool is_crowded);
   /// The glide of the body's cluster has come to its end.
   void go_on(std::uint32_t body, Real time) { clusters_.go_on(body, time); }
+  /// Before the post goes: it bears nobody any more.
+  void leave(std::uint32_t post, Real time) { clusters_.leave(post, time); }
 
  private:
   void collide_ordered(std::uint32_t body, Partner partner, Real time, bool is_crowded);

@@ -48,7 +48,7 @@ bool JointImpacts::collide(const Contact& c, Real time) {
   velocities_before_ = problem_.velocities;
   clock_.solver_failed = !solver_.solve(problem_, clock_.is_endless());
   if (clock_.solver_failed && observers_.journal != nullptr)
-    observers_.journal->had_solver_failed = true;
+    observers_.journal->unsolved.push_back(time);
   if (clock_.solver_failed) return false;
   ++record_.counters().joint_impacts;
   apply(c, time);

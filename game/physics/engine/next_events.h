@@ -2,8 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "game/physics/bodies/body_records.h"
 #include "game/physics/bodies/partner.h"
@@ -76,8 +79,31 @@ class NextEvents {
     return slots_[body].is_tied || (is_body(partner) && slots_[partner].is_tied) ||
            schedule_.is_followed_within(instant);
   }
-  /// From the next restart() on.
-  void keep_by(QueuePolicy policy) { policy_ = policy; }
+  /// Hands all that is pending to the queue of that policy.
+  void keep_by(QueuePolicy policy) {
+    const auto has_event = [this](std::uint32_t body) {
+      return schedule_.time(body) < std::numeric_limits<Real>::infinity();
+    };
+    const std::size_t count = slots_.size();
+    EventSchedule next(policy);
+    next.resize(static_cast<std::uint32_t>(count));
+    next.expect(schedule_.pending());
+    for (std::uint32_t body = 0; body < count; ++body) {
+      if (!has_event(body)) continue;
+      const EventOrder order = order_of(body);
+      assert(order.time == schedule_.time(body));
+      next.set(body, order.time, order.lower, order.higher);
+    }
+    policy_ = policy, schedule_ = std::move(next);
+  }
+  /// Windows look at all that have an event once per window: from so many bodies on that is cheap,
+  /// and with a quarter of them a calendar costs half as much.
+  void choose(std::size_t pending_min) {
+    const bool has_windows = windows() != nullptr;
+    const std::size_t pending = schedule_.pending();
+    if (!has_windows && pending >= pending_min) keep_by(QueuePolicy::windows);
+    if (has_windows && pending < pending_min / 4) keep_by(QueuePolicy::calendar);
+  }
   /// The windows, if events are kept by them.
   WindowQueue* windows() { return schedule_.windows(); }
   /// Who comes after the next one.

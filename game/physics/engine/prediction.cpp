@@ -7,7 +7,6 @@
 #include "game/physics/bodies/field_parts.h"
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/flight/straight_flight.h"
-#include "game/physics/flight/swept_boxes.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -23,11 +22,18 @@ Prediction::Prediction(const WorldSpec& spec, const Uses& uses)
       puck_drag_(spec.puck_drag),
       tolerance_(offset_tolerance(spec)) {}
 
+/// A wall is met anew in each cell along it, and who was lost out of sight may come back.
+bool Prediction::is_known(const NextEvent& slot, Real time, Partner p) const {
+  return time == slot.impact_time && p == slot.partner &&
+         (!is_body(p) || bodies_[p].version == slot.partner_version);
+}
+
 /// Ties break by (time, lower id, higher id); parts of the field count as higher than every body.
 /// Whether another impact follows within the instant does not depend on the order of the offers.
 void Prediction::offer(std::uint32_t body, Real time, Partner p) {
   NextEvent& slot = events_.slot(body);
-  if (time > slot.impact_time + Real(instant)) return;
+  if (time > slot.impact_time + Real(instant) || time == infinity || is_known(slot, time, p))
+    return;
   slot.is_tied = time >= slot.impact_time - Real(instant);
   if (time > slot.impact_time) return;
   if (time == slot.impact_time && std::minmax(body, p) >= std::minmax(body, slot.partner)) return;
@@ -59,7 +65,6 @@ void Prediction::begin_alone(std::uint32_t body) {
     predict_flight(body);  // as predict_field() would, which takes 20 instructions to find out
   } else {
     predict_field(body);
-    if (b.is(Body::curved)) predict_curved_crossing(body);
   }
 }
 
@@ -71,17 +76,55 @@ std::uint32_t Prediction::begin(std::uint32_t body) {
 }
 
 std::uint32_t Prediction::predict_counting(std::uint32_t body) {
-  const std::uint32_t count = begin(body);
-  if (bodies_.curved_count() > 0 && sees_curves(count)) return 0;
+  const std::uint32_t count = begin(body), straight = sort_by_curves(count);
   counters_.predictions += count;
-  if (puck_drag_ > 0.0) return predict_dragged_counting(body, count);
-  return predict_straight_pairs<true>(body, candidates_.data(), count);
+  std::uint32_t touching = 0;
+  for (std::uint32_t k = straight; k < count; ++k) {
+    const std::uint32_t other = candidates_[k];
+    touching += may_touch_on_curve(body, other);
+    predict_curved_pair(body, other);
+  }
+  return touching + (puck_drag_ > 0.0
+                         ? predict_dragged_counting(body, straight)
+                         : predict_straight_pairs<true>(body, candidates_.data(), straight));
 }
 
-/// Among the first `count` of the candidates.
+std::uint32_t Prediction::predict_curved_counting(std::uint32_t body) {
+  const std::uint32_t count = begin(body);
+  std::uint32_t touching = 1;
+  for (std::uint32_t k = 0; k < count; ++k)
+    touching += candidates_[k] != body && may_touch_on_curve(body, candidates_[k]);
+  predict_pairs(body, count);
+  return touching;
+}
+
+/// Puts those of the first `count` candidates last that are on curves; returns how many are not.
+std::uint32_t Prediction::sort_by_curves(std::uint32_t count) {
+  if (bodies_.curved_count() == 0 || !sees_curves(count)) return count;
+  std::uint32_t* const near = candidates_.data();
+  return static_cast<std::uint32_t>(
+      std::partition(near, near + count,
+                     [&](std::uint32_t other) { return !bodies_[other].is(Body::curved); }) -
+      near);
+}
+
+/// When the flight of `body` begins. Of one that has begun a later course already nobody knows.
+bool Prediction::may_touch_on_curve(std::uint32_t body, std::uint32_t other) const {
+  const Body& b = bodies_[body];
+  if (bodies_[other].time > b.time) return true;
+  const RealVector offset = RealVector(b.x, b.y) - physics::position_at(bodies_, other, b.time);
+  return shape_of(bodies_, body, other).gap(offset).distance <= Real(clear_of_touching);
+}
+
+/// Among the first `count` of the candidates. Nearly never, so that it looks at all without a
+/// branch.
 bool Prediction::sees_curves(std::uint32_t count) const {
-  return std::any_of(candidates_.begin(), candidates_.begin() + count,
-                     [&](std::uint32_t other) { return bodies_[other].is(Body::curved); });
+  const std::uint32_t* const near = candidates_.data();
+  const Body* const all = bodies_.table().bodies.data();
+  std::uint32_t flags = 0;
+#pragma GCC unroll 4
+  for (std::uint32_t k = 0; k < count; ++k) flags |= all[near[k]].flags;
+  return (flags & Body::curved) != 0;
 }
 
 void Prediction::predict_field(std::uint32_t body) {
@@ -92,7 +135,7 @@ void Prediction::predict_field(std::uint32_t body) {
     rests_.for_each_end(body, [&](Real time) { offer(body, time, partner::release); });
   if (b.is(Body::frozen) && !is_still(bodies_, body))
     offer(body, std::max(history_.last_hop(body), b.time), partner::release);
-  if ((b.flags & Body::curved) != 0) predict_curved_walls(body);
+  if (b.is(Body::curved)) predict_curved_crossing(body), predict_curved_walls(body);
   else predict_flight(body);
   if (b.mouth != Body::no_mouth) predict_mouth(body);
 }
@@ -142,6 +185,7 @@ void Prediction::predict_end_wall(std::uint32_t body) {
                      : partner::wall_right);
 }
 
+/// Those that come before the crossing.
 void Prediction::predict_curved_walls(std::uint32_t body) {
   const Body& b = bodies_[body];
   const Motion still, moving = bodies_.motion(body);
@@ -149,7 +193,8 @@ void Prediction::predict_curved_walls(std::uint32_t body) {
   const RealVector extent = bodies_.build(body).half_extent + RealVector::Constant(b.radius);
   const auto predict_plane = [&](Partner wall) {
     const HalfPlane plane = plane_of(field_, wall, extent, bodies_.build(body).half);
-    const Real limit = events_[body].impact_time + Real(instant);
+    const Real limit =
+        std::min(events_[body].impact_time, events_[body].crossing_time) + Real(instant);
     if (!may_reach(body, plane, limit)) return;
     const auto time = first_contact(relative, plane, b.time, limit, tolerance_);
     if (!time) return;
@@ -194,25 +239,16 @@ void Prediction::predict_pairs(std::uint32_t body, std::uint32_t count) {
   counters_.predictions += count;
   std::uint32_t* near = candidates_.data();
   if ((bodies_[body].flags & Body::curved) == 0 && puck_drag_ == 0.0) {
-    const auto is_curved = [&](std::uint32_t other) {
-      return (bodies_[other].flags & Body::curved) != 0;
-    };
-    std::uint32_t* const straight_end =
-        bodies_.curved_count() == 0 ? near + count
-                                    : std::partition(near, near + count, [&](std::uint32_t other) {
-                                        return !is_curved(other);
-                                      });
-    for (std::uint32_t* other = straight_end; other != near + count; ++other)
-      predict_curved_pair(body, *other);
-    predict_straight_pairs<false>(body, near, static_cast<std::uint32_t>(straight_end - near));
+    const std::uint32_t straight = sort_by_curves(count);
+    for (std::uint32_t k = straight; k < count; ++k) predict_curved_pair(body, near[k]);
+    predict_straight_pairs<false>(body, near, straight);
     return;
   }
   for (std::uint32_t k = 0; k < count; ++k)
     if (near[k] != body) predict_pair(body, near[k]);
 }
 
-/// Where nothing comes at the same instant, which is nearly always, no branch depends on who meets
-/// whom.
+/// Where somebody is met, and nothing comes at the same instant, no branch depends on whom.
 template <bool counts>
 std::uint32_t Prediction::predict_straight_pairs(std::uint32_t body, std::uint32_t* near,
                                                  std::uint32_t count) {
@@ -228,9 +264,11 @@ std::uint32_t Prediction::predict_straight_pairs(std::uint32_t body, std::uint32
                                           latest)
             : first_disc_contact(bodies_.table().bodies.data(), body, near + begin, asked, latest);
     touching += first.touching;
+    if (!(first.time < infinity)) continue;
     const bool is_tied = first.second_time <= first.time + Real(instant) ||
-                         std::abs(first.time - slot.impact_time) <= Real(instant);
-    if (first.time < infinity && is_tied) {
+                         (std::abs(first.time - slot.impact_time) <= Real(instant) &&
+                          !is_known(slot, first.time, first.other));
+    if (is_tied) {
       for (std::uint32_t k = begin; k < begin + asked; ++k)
         if (const auto time = disc_contact_time(bodies_[body], bodies_[near[k]], latest))
           offer(body, *time, near[k]);
@@ -273,101 +311,6 @@ std::uint32_t Prediction::predict_dragged_counting(std::uint32_t body, std::uint
     offer_dragged(body, other, sighting);
   }
   return touching;
-}
-
-/// What comes after the next crossing of a body on a curve is looked for then, when it looks at
-/// everybody in sight anew.
-Real Prediction::limit_of_curved(std::uint32_t body, std::uint32_t other) const {
-  Real limit = events_[body].impact_time;
-  for (const std::uint32_t one : {body, other})
-    if ((bodies_[one].flags & Body::curved) != 0)
-      limit = std::min(limit, events_[one].crossing_time);
-  return limit + Real(instant);
-}
-
-/// By the boxes that both sweep until `limit`. It takes a tenth of the time of the first safe step,
-/// and tells that of those in sight of a bat two in three are too far.
-bool Prediction::may_meet(std::uint32_t one, std::uint32_t other, Real limit) const {
-  const Body &a = bodies_[one], &b = bodies_[other];
-  const RealVector &push_a = bodies_.law(one).acceleration,
-                   &push_b = bodies_.law(other).acceleration;
-  const RealVector reach = bodies_.build(one).half_extent + bodies_.build(other).half_extent +
-                           RealVector::Constant(a.radius + b.radius + Real(1e3) * tolerance_);
-  const Real ahead_a = limit - a.time, ahead_b = limit - b.time;
-  if (!may_come_within(reach.x(), b.x - a.x, stretch_of(a.vx, push_a.x(), ahead_a),
-                       stretch_of(b.vx, push_b.x(), ahead_b)) ||
-      !may_come_within(reach.y(), b.y - a.y, stretch_of(a.vy, push_a.y(), ahead_a),
-                       stretch_of(b.vy, push_b.y(), ahead_b)))
-    return false;
-  return a.time < b.time ? may_meet_since(one, other, reach, limit)
-                         : may_meet_since(other, one, reach, limit);
-}
-
-/// The same from the later one's event on, which leaves out what the earlier one, if it flies
-/// straight, has done until then. Its velocity has but faded.
-bool Prediction::may_meet_since(std::uint32_t earlier, std::uint32_t later, const RealVector& reach,
-                                Real limit) const {
-  const Body &a = bodies_[earlier], &b = bodies_[later];
-  if (a.is(Body::curved)) return true;
-  const RealVector &push = bodies_.law(later).acceleration,
-                   offset = RealVector(b.x, b.y) - physics::position_at(bodies_, earlier, b.time);
-  const Real ahead = limit - b.time;
-  return may_come_within(reach.x(), offset.x(), stretch_of(a.vx, 0.0, ahead),
-                         stretch_of(b.vx, push.x(), ahead)) &&
-         may_come_within(reach.y(), offset.y(), stretch_of(a.vy, 0.0, ahead),
-                         stretch_of(b.vy, push.y(), ahead));
-}
-
-/// The same for a wall or the edge of a cell: half of those that a body on a curve might come to it
-/// flies away from.
-bool Prediction::may_reach(std::uint32_t body, const HalfPlane& plane, Real limit) const {
-  const Body& b = bodies_[body];
-  const RealVector& push = bodies_.law(body).acceleration;
-  const RealVector &normal = plane.normal, position(b.x, b.y), velocity(b.vx, b.vy);
-  const Real back = stretch_of(normal.dot(velocity), normal.dot(push), limit - b.time).low;
-  return !(plane.gap(position).distance + back > Real(1e3) * tolerance_);
-}
-
-void Prediction::predict_curved_pair(std::uint32_t body, std::uint32_t other) {
-  if ((bodies_[body].flags & bodies_[other].flags & Body::frozen) != 0 && is_still(bodies_, body) &&
-      is_still(bodies_, other))
-    return;
-  if ((bodies_[body].flags & Body::held) != 0 && rests_.are_joined(body, other)) return;
-  const std::uint32_t low = std::min(body, other), high = std::max(body, other);
-  const Real limit = limit_of_curved(body, other);
-  if (!may_meet(low, high, limit)) {
-    --counters_.predictions;  // nothing is solved
-    return;
-  }
-  const Motion a = bodies_.motion(low), b = bodies_.motion(high);
-  const Real start = std::max(a.time, b.time);
-  const auto time =
-      first_contact(RelativeMotion{a, b}, shape_of(bodies_, low, high), start, limit, tolerance_);
-  if (time) offer(body, *time, other);
-}
-
-/// Bookkeeping: when the centre leaves its cell by the margin. Any instant before that would do as
-/// well, so the present may be used.
-void Prediction::predict_curved_crossing(std::uint32_t body) {
-  NextEvent& slot = events_.slot(body);
-  slot.crossing_time = infinity;
-  const CellGrid::Place place = grid_.place(body);
-  const Motion still, moving = bodies_.motion(body);
-  const Real start = std::max(bodies_[body].time, clock_.now);
-  const auto leave = [&](Real edge, const RealVector& normal, CellGrid::Direction direction) {
-    if (std::abs(edge) == infinity) return;
-    const HalfPlane plane{normal, normal.sum() * edge};
-    const Real limit = std::min(slot.impact_time, slot.crossing_time);
-    if (!may_reach(body, plane, limit)) return;
-    const auto time = first_contact(RelativeMotion{still, moving}, plane, start, limit, tolerance_);
-    if (!time || *time >= slot.crossing_time) return;
-    slot.crossing_time = *time;
-    slot.direction = direction;
-  };
-  leave(grid_.column_edge(place.column, false), {1.0, 0.0}, CellGrid::left);
-  leave(grid_.column_edge(place.column, true), {-1.0, 0.0}, CellGrid::right);
-  leave(grid_.row_edge(place.row, false), {0.0, 1.0}, CellGrid::down);
-  leave(grid_.row_edge(place.row, true), {0.0, -1.0}, CellGrid::up);
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

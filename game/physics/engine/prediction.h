@@ -46,10 +46,11 @@ class Prediction {
     predict_flight(body);
     predict_pairs(body, grid_.collect_ahead(body, direction, room_for_candidates()));
   }
-  /// Predicts a puck in straight flight where all are, but for telling the schedule. Returns how
-  /// many touch it now, itself included: never too few, hardly ever too many; 0, and the prediction
-  /// is void, where somebody near is on a curve.
+  /// Predicts a puck in straight flight, but for telling the schedule. Returns how many touch it
+  /// now, itself included: never too few, hardly ever too many.
   std::uint32_t predict_counting(std::uint32_t body);
+  /// The same of one on a curve, when its flight begins.
+  std::uint32_t predict_curved_counting(std::uint32_t body);
   /// Of a body that has just been moved to the next cell: in straight flight, the earliest impact
   /// in the others is known and stays the earliest.
   void predict_beyond(std::uint32_t body, CellGrid::Direction direction);
@@ -66,6 +67,8 @@ class Prediction {
   bool may_ask_pairs_once() const;
   void ask_pairs_once();
   bool sees_curves(std::uint32_t count) const;
+  std::uint32_t sort_by_curves(std::uint32_t count);
+  bool may_touch_on_curve(std::uint32_t body, std::uint32_t other) const;
   void predict_field(std::uint32_t body);
   void predict_flight(std::uint32_t body);
   void predict_side_wall(std::uint32_t body);
@@ -86,6 +89,7 @@ class Prediction {
   bool may_reach(std::uint32_t body, const HalfPlane& plane, Real limit) const;
   void predict_curved_pair(std::uint32_t body, std::uint32_t other);
   void predict_curved_crossing(std::uint32_t body);
+  bool is_known(const NextEvent& slot, Real time, Partner partner) const;
   void offer(std::uint32_t body, Real time, Partner partner);
   /// On the pucks' warped clock.
   Real real_time(Real start, Real warped) const {

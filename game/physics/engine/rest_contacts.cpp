@@ -59,6 +59,7 @@ void RestContacts::rebase_group(std::uint32_t body, Real time) {
 }
 
 void RestContacts::free(std::uint32_t body, Real time) {
+  if (bodies_.is_fixed(body)) return dissolve_around(body, time);
   jams_.wake(body, time);
   for (int axis = 0; axis < 2; ++axis) dissolve(body, axis, time);
   bodies_.rebase(body, time);
@@ -318,6 +319,22 @@ void RestContacts::dissolve(std::uint32_t body, int axis, Real time) {
   std::erase_if(rest_contacts_,
                 [&](const RestContact& rest) { return is_in_group(rest, axis, members); });
   for (const std::uint32_t member : members) share_part(axis, {member}, time);
+}
+
+/// A post is in no group, but those are who lean on it. It has no motion to rebase, and yet is not
+/// what it was to whoever is due to hit it.
+void RestContacts::dissolve_around(std::uint32_t post, Real time) {
+  const auto is_leant_on = [&](const RestContact& rest) {
+    return rest.low == post || rest.high == post;
+  };
+  for (auto rest = std::find_if(rest_contacts_.begin(), rest_contacts_.end(), is_leant_on);
+       rest != rest_contacts_.end();
+       rest = std::find_if(rest_contacts_.begin(), rest_contacts_.end(), is_leant_on)) {
+    const Partner inside = rest->low == post ? rest->high : rest->low;
+    assert(bodies_[inside].is(Body::held_along(rest->axis)));
+    dissolve(inside, rest->axis, time);
+  }
+  bodies_.touch(post);
 }
 
 /// When the contact reaches the end of its face [s]; infinite if it never does. Judged from the two

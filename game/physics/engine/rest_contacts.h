@@ -51,7 +51,8 @@ class RestContacts {
     jams_.wake(body, time);
     rebase_group(body, time);
   }
-  /// Before it goes its own way: it is rebased, and in no jam or rest contact any more.
+  /// Before it goes its own way: it is rebased, and in no jam or rest contact any more. Who is due
+  /// to hit it looks anew.
   void free(std::uint32_t body, Real time);
 
   bool can_join(const Contact& contact) const;
@@ -98,6 +99,7 @@ class RestContacts {
   bool would_push_twice(const Contact& contact) const;
   Real slide_time(const RestContact& rest) const;
   void note_release(const RestContact& rest, Real time);
+  void dissolve_around(std::uint32_t post, Real time);
 
   Bodies& bodies_;
   Friction friction_;

@@ -25,9 +25,20 @@ class EventBins {
   /// Notes the event of `body`, which comes no later than end().
   void add(std::uint32_t body, const EventOrder& order);
   /// The body whose event comes first, or `none`; the note stays.
-  std::uint32_t first(const EventOrder* entries);
-  /// The event that first() has found is no longer of this window.
-  void drop_first() { due_.pop_back(); }
+  std::uint32_t first(const EventOrder* entries) {
+    for (;;) {
+      for (; !due_.empty(); drop_first())
+        if (const Note& note = notes_[due_.back()]; is_valid(note, entries)) return note.body;
+      if (bucket_ >= buckets_.size()) return none;
+      empty_next_bucket(entries);
+    }
+  }
+  /// Takes out the note that first() has just found: nobody has to ask what it says once more.
+  void drop_first() {
+    notes_[due_.back()].next = free_;
+    free_ = due_.back();
+    due_.pop_back();
+  }
   /// Whether another event may come within `window` [s] of the one at `time` that first() has just
   /// found, or beyond end(). Never misses one.
   bool is_followed_within(const EventOrder* entries, Real window) const;
@@ -45,10 +56,12 @@ class EventBins {
  private:
   struct Note {
     EventOrder order;
-    std::uint32_t body, next;  // in its bucket
+    std::uint32_t body, next;  // in its bucket, or among those taken out
   };
 
-  void sort_in(std::uint32_t body, const EventOrder& order);
+  void empty_next_bucket(const EventOrder* entries);
+  std::uint32_t new_note(std::uint32_t body, const EventOrder& order);
+  void sort_in(std::uint32_t note);
   bool is_valid(const Note& note, const EventOrder* entries) const {
     return entries[note.body] == note.order;
   }
@@ -57,7 +70,8 @@ class EventBins {
   std::vector<std::uint32_t> buckets_;  // the first note of each
   std::size_t bucket_ = 0;              // the next one
   std::vector<Note> notes_;
-  std::vector<Note> due_;  // of the buckets before the next one, the first one last
+  std::uint32_t free_ = none;       // the note that was taken out last
+  std::vector<std::uint32_t> due_;  // notes of the buckets before the next one, the first one last
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -43,6 +43,8 @@ class EventQueue {
   /// stays.
   std::uint32_t first(Real until);
   Real time(std::uint32_t body) const { return entries_[body].time; }
+  /// How many bodies have an event.
+  std::size_t pending() const { return count_; }
   /// Whether another event may come within `window` [s] of the one that first() has just found; the
   /// same one as that of the other body does not count. Never misses one; sometimes says yes
   /// without need.

@@ -47,6 +47,11 @@ class EventSchedule {
     return ask(*this, [&](const auto& queue) { return queue.is_followed_within(window); });
   }
 
+  /// Of the calendar how many bodies have an event; of windows, which may list some that had one,
+  /// at most so many more; a heap does not count.
+  std::size_t pending() const {
+    return policy_ == QueuePolicy::windows ? windows_.listed().size() : calendar_.pending();
+  }
   /// The windows, if events are kept by them.
   WindowQueue* windows() { return policy_ == QueuePolicy::windows ? &windows_ : nullptr; }
   /// Whether the queue knows who comes after the next one: a heap does not.

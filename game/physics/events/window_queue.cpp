@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <limits>
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -65,7 +67,8 @@ bool WindowQueue::open(Real until) {
 
 void WindowQueue::reopen(Real begin, Real end, std::span<const std::uint32_t> bodies) {
   bins_.open(begin, end, bodies.size());
-  later_begin_ = end;  // or later: the next open() finds out
+  // Or later, but not in this window: the next open() finds out.
+  later_begin_ = std::nextafter(end, std::numeric_limits<Real>::infinity());
   for (const std::uint32_t body : bodies)
     if (entries_[body].time <= end) bins_.add(body, entries_[body]);
 }

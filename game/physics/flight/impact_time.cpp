@@ -56,4 +56,28 @@ Real slowest_fading(const RelativeMotion& motion) {
   return slowest;
 }
 
+std::optional<Real> time_near(const Motion& moving, const HalfPlane& plane, Real start, Real limit,
+                              Real slack) {
+  assert(slack > 0.0);
+  constexpr int step_max = 4000, few_steps = 8;  // as of first_contact()
+  const Motion still;
+  Real time = start;
+  for (int step = 0; step < step_max && time <= limit; ++step) {
+    const Motion there = moving.at(time);
+    const Real distance = std::max<Real>(0.0, plane.gap(there.position).distance),
+               rate = plane.normal.dot(there.velocity);
+    if (distance <= slack && rate < 0.0) return time;
+    const RealVector acceleration = there.acceleration - there.drag.cwiseProduct(there.velocity);
+    const Real closing = std::max<Real>(0.0, -plane.normal.dot(acceleration));
+    if (step > few_steps && rate > 0.0 &&
+        rate * slowest_fading(RelativeMotion{still, moving}) > 1.01 * closing)
+      return std::nullopt;
+    const Real wait = detail::safe_step(distance, rate, closing);
+    if (wait == std::numeric_limits<Real>::infinity()) return std::nullopt;
+    if (!(time + wait > time)) return time;
+    time += wait;
+  }
+  return std::nullopt;
+}
+
 }  // namespace rink::physics::inline RINK_PRECISION

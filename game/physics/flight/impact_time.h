@@ -71,6 +71,13 @@ Real closing_acceleration_max(const RelativeMotion& motion, const RelativeMotion
 /// The rate at which the slowest of the accelerations that act fades [1/s]; infinite if none acts.
 Real slowest_fading(const RelativeMotion& motion);
 
+/// An instant from `start` on and no later than `limit` at which a body is within `slack` [m] of
+/// the half-plane, or in it, and moves towards it; no such instant comes more than `slack` earlier
+/// on its way. Nothing if there is none. It takes fewer steps than first_contact(), whose method it
+/// shares.
+std::optional<Real> time_near(const Motion& moving, const HalfPlane& plane, Real start, Real limit,
+                              Real slack);
+
 namespace detail {
 
 /// The time in which a gap cannot close: `rate` is its growth, `closing` bounds its acceleration

@@ -268,6 +268,15 @@ template <bool counts, class Disc>
     first = _mm256_min_pd(first, found);
     places = _mm256_add_epi64(places, _mm256_set1_epi64x(4));
   }
+  FirstContact contact;
+  if constexpr (counts) {
+    alignas(32) std::int64_t counted[4];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(counted), touching);
+    contact.touching =
+        static_cast<std::uint32_t>(-(counted[0] + counted[1] + counted[2] + counted[3])) -
+        ((0u - count) & 3u);
+  }
+  if (_mm256_movemask_pd(_mm256_cmp_pd(first, never, _CMP_LT_OQ)) == 0) return contact;
   // The earliest of the four lanes, and the first in `near` among equal ones.
   const __m256d first_crossed = _mm256_permute2f128_pd(first, first, 1);
   const __m256d second_two =
@@ -282,16 +291,7 @@ template <bool counts, class Disc>
   const int lanes = _mm256_movemask_pd(_mm256_cmp_pd(first, first_one, _CMP_EQ_OQ));
   alignas(32) std::int64_t place_of[4];
   _mm256_store_si256(reinterpret_cast<__m256i*>(place_of), others);
-  FirstContact contact;
   contact.time = _mm256_cvtsd_f64(first_one), contact.second_time = _mm256_cvtsd_f64(second_one);
-  if constexpr (counts) {
-    alignas(32) std::int64_t counted[4];
-    _mm256_store_si256(reinterpret_cast<__m256i*>(counted), touching);
-    contact.touching =
-        static_cast<std::uint32_t>(-(counted[0] + counted[1] + counted[2] + counted[3])) -
-        ((0u - count) & 3u);
-  }
-  if (!(contact.time < std::numeric_limits<double>::infinity())) return contact;
   std::int64_t place = place_of[__builtin_ctz(static_cast<unsigned>(lanes))];
   if (contact.second_time == contact.time)
     for (int lane = 0; lane < 4; ++lane)

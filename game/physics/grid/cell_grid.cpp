@@ -10,12 +10,12 @@ namespace {
 
 /// The last cell takes what is left, up to twice the side, so that the side does not depend on the
 /// field's length.
-std::vector<double> edges_of(std::uint32_t count, double side) {
+std::vector<double> edges_of(std::uint32_t count, double side, double low) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> edges;
   for (std::uint32_t index = 0; index < count; ++index) {
-    edges.push_back(index == 0 ? -infinity : (index - 1.0 / 64.0) * side);
-    edges.push_back(index + 1 == count ? infinity : (index + 1.0 + 1.0 / 64.0) * side);
+    edges.push_back(index == 0 ? -infinity : low + (index - 1.0 / 64.0) * side);
+    edges.push_back(index + 1 == count ? infinity : low + (index + 1.0 + 1.0 / 64.0) * side);
   }
   return edges;
 }
@@ -34,15 +34,16 @@ double cell_side(const CellPlan& plan, double reach) {
 
 /// Empties the grid. `reach` [m] is the longest distance along an axis at which two small bodies
 /// touch.
-void CellGrid::rebuild(double length, double width, double reach, std::uint32_t body_max,
+void CellGrid::rebuild(const Ground& ground, double reach, std::uint32_t body_max,
                        double least_cell) {
-  reach_ = reach;
+  const auto& [low_x, low_y, length, width] = ground;
+  low_x_ = low_x, low_y_ = low_y, reach_ = reach;
   side_ = cell_side({length, width, body_max, least_cell}, reach);
   columns_ = static_cast<std::uint32_t>(std::max(1.0, std::floor(length / side_)));
   rows_ = static_cast<std::uint32_t>(std::max(1.0, std::floor(width / side_)));
   inverse_side_ = 1.0 / side_;
-  column_edges_ = edges_of(columns_, side_);
-  row_edges_ = edges_of(rows_, side_);
+  column_edges_ = edges_of(columns_, side_, low_x_);
+  row_edges_ = edges_of(rows_, side_, low_y_);
   cells_.restart(columns_, rows_);
   wide_.restart(side_, columns_, rows_);
   has_wide_ = false;
@@ -59,8 +60,8 @@ void CellGrid::insert(std::uint32_t body, double x, double y) {
 void CellGrid::insert_wide(std::uint32_t body, const Box& box) {
   assert(body < places_.size() && !is_listed(body));
   const double more = 0.5 * reach_ + side_ / 32.0;
-  const std::uint32_t slot =
-      wide_.add({body, {}, box.half_width + more, box.half_height + more}, box.x, box.y);
+  const std::uint32_t slot = wide_.add({body, {}, box.half_width + more, box.half_height + more},
+                                       box.x - low_x_, box.y - low_y_);
   places_[body] = {static_cast<std::uint16_t>(columns_ + slot),
                    static_cast<std::uint16_t>(rows_ + slot)};
   has_wide_ = true;
@@ -85,8 +86,8 @@ void CellGrid::set_edges(std::uint32_t slot) {
   column_edges_.resize(std::max(column_edges_.size(), column + 2));
   row_edges_.resize(std::max(row_edges_.size(), row + 2));
   const auto edges = wide_.edges(slot);
-  column_edges_[column] = edges[left], column_edges_[column + 1] = edges[right];
-  row_edges_[row] = edges[down], row_edges_[row + 1] = edges[up];
+  column_edges_[column] = low_x_ + edges[left], column_edges_[column + 1] = low_x_ + edges[right];
+  row_edges_[row] = low_y_ + edges[down], row_edges_[row + 1] = low_y_ + edges[up];
 }
 
 std::uint32_t CellGrid::collect_all_sizes(std::uint32_t body, std::uint32_t* list) const {

@@ -50,8 +50,15 @@ class CellGrid {
     double x, y, half_width, half_height;
   };
 
+  /// A rectangle of the field [m]. Whoever lies beyond it is listed in the cells at its rim.
+  struct Ground {
+    double low_x, low_y, length, width;
+  };
+  void rebuild(const Ground& ground, double reach, std::uint32_t body_max, double least_cell);
   void rebuild(double length, double width, double reach, std::uint32_t body_max,
-               double least_cell);
+               double least_cell) {
+    rebuild({0.0, 0.0, length, width}, reach, body_max, least_cell);
+  }
   void resize(std::uint32_t count) {
     places_.resize(count);
     if (has_wide_) cells_.require_room(count + spare_room);
@@ -76,9 +83,20 @@ class CellGrid {
     set_place(body, to);
   }
 
-  /// Whether a move() of a small body would leave all cells where they are in memory.
-  bool has_room_beyond(std::uint32_t body, Direction direction) const {
-    return cells_.has_room(cells_.neighbour(cell_of(body), direction));
+  /// As move(); false, with nothing done, if cells would have to go elsewhere in
+  /// memory.
+  [[gnu::always_inline]] bool move_in_place(std::uint32_t body, Direction direction) {
+    assert(is_listed(body));
+    if (has_wide_ && is_wide(body)) {
+      if (!wide_.has_room_beyond(slot_of(body), direction)) return false;
+      return move_wide(body, direction), true;
+    }
+    const std::size_t from = cell_of(body), to = cells_.neighbour(from, direction);
+    if (!cells_.has_room(to)) return false;
+    cells_.remove(from, body);
+    cells_.add(to, body);
+    set_place(body, places_[body].towards(direction));
+    return true;
   }
 
   double side() const { return side_; }
@@ -158,8 +176,8 @@ class CellGrid {
   }
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }
-  std::uint32_t column(double x) const { return clamp(x, columns_); }
-  std::uint32_t row(double y) const { return clamp(y, rows_); }
+  std::uint32_t column(double x) const { return clamp(x - low_x_, columns_); }
+  std::uint32_t row(double y) const { return clamp(y - low_y_, rows_); }
 
  private:
   std::uint32_t clamp(double coordinate, std::uint32_t count) const {
@@ -189,6 +207,7 @@ class CellGrid {
   WideBodies wide_;
   bool has_wide_ = false;
   std::vector<double> column_edges_, row_edges_;  // by column and row, then by slot of a wide body
+  double low_x_ = 0.0, low_y_ = 0.0;              // where the cells begin [m]
   double side_ = 1.0, inverse_side_ = 1.0, reach_ = 0.0;
   std::uint32_t columns_ = 1, rows_ = 1;
 };

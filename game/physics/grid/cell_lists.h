@@ -75,9 +75,13 @@ class CellLists {
   /// Calls `visit(number)` for each in those cells of the field.
   template <class Visit>
   void visit(const CellBlock& cells, Visit&& visit) const {
-    for (std::uint32_t row = cells.row_low; row <= cells.row_high; ++row)
-      for (std::uint32_t column = cells.column_low; column <= cells.column_high; ++column)
-        for (const std::uint32_t number : (*this)[at(column, row)]) visit(number);
+    const std::size_t stride = stride_;  // or it would be read anew after each visit
+    for (std::uint32_t row = cells.row_low; row <= cells.row_high; ++row) {
+      const std::uint32_t* list = &lists_[at(cells.column_low, row) * stride];
+      for (std::uint32_t column = cells.column_low; column <= cells.column_high;
+           ++column, list += stride)
+        for (const std::uint32_t number : std::span(list + 1, *list)) visit(number);
+    }
   }
 
   /// Room that the next three need, or more.

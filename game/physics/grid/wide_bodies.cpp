@@ -70,6 +70,15 @@ void WideBodies::move(std::uint32_t slot, CellLists::Direction direction) {
   block = to;
 }
 
+bool WideBodies::has_room_beyond(std::uint32_t slot, CellLists::Direction direction) const {
+  const CellBlock& block = wides_[slot].block;
+  const CellBlock strip = moved(block, direction).beyond(block);
+  for (std::uint32_t row = strip.row_low; row <= strip.row_high; ++row)
+    for (std::uint32_t column = strip.column_low; column <= strip.column_high; ++column)
+      if (!slots_.has_room(slots_.at(column, row))) return false;
+  return true;
+}
+
 std::array<double, 4> WideBodies::edges(std::uint32_t slot) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto& [body, block, half_width, half_height] = wides_[slot];

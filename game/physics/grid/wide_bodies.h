@@ -32,6 +32,9 @@ class WideBodies {
   void remove(std::uint32_t slot);
   void move(std::uint32_t slot, CellLists::Direction direction);
 
+  /// Whether that would leave all lists of slots where they are in memory.
+  bool has_room_beyond(std::uint32_t slot, CellLists::Direction direction) const;
+
   std::uint32_t count() const { return count_; }
   const Wide& operator[](std::uint32_t slot) const { return wides_[slot]; }
   /// Where the centre leaves the block to the left, right, down and up [m]; infinite at the rim.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "game/physics/event.h"
+#include "game/physics/event_budget.h"
 #include "game/physics/events/event_order.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -17,5 +18,8 @@ struct OrderedEvent {
 /// The events in the order in which one loop would have written them; those of one place stay as
 /// they are given.
 std::vector<Event> in_order(std::vector<OrderedEvent> events);
+
+/// Leaves the last EventBudget::recent_max of the events, in that order.
+void keep_latest(std::vector<ChargedEvent>& events);
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -19,6 +18,7 @@ void LastPass::begin_window() {
   images_.begin();
   orders_.clear();
   solver_failed_ = false;
+  goal_ = infinity;
   played_ = 0;
 }
 
@@ -28,18 +28,30 @@ void LastPass::play() {
   for (std::uint32_t body = events.first(shared_.end); body != NextEvents::none && !solver_failed_;
        body = events.first(shared_.end)) {
     const EventOrder order = events.order_of(body);
-    // Brought about by one of its own instant: no order of times and ids tells when it came.
-    if (precedes(order, latest)) return void(solver_failed_ = true);
-    latest = order;
+    // Brought about by one of its own instant: no order of times and ids tells when it came. That
+    // matters to all but crossings, which move nothing.
+    if (precedes(order, latest) && !crosses(body)) return void(solver_failed_ = true);
+    latest = std::max(latest, order, precedes);
+    if (scores(body)) return void(goal_ = order.time);
     ++played_;
     if (!tile_.play_first_of_all(body)) process(body, order);
   }
 }
 
+/// Whether that is its next event.
+bool LastPass::crosses(std::uint32_t body) const {
+  return parts_.events[body].crossing_time < parts_.events[body].impact_time;
+}
+
+/// The same of a goal.
+bool LastPass::scores(std::uint32_t body) const {
+  return parts_.events[body].partner == partner::goal_line && !crosses(body);
+}
+
 void LastPass::process(std::uint32_t body, const EventOrder& order) {
   const NextEvent& slot = parts_.events[body];
   const Partner partner = slot.partner;
-  const bool crosses = slot.crossing_time < slot.impact_time;
+  const bool crosses = this->crosses(body);
   const bool is_stale =
       !crosses && is_body(partner) && parts_.bodies[partner].version != slot.partner_version;
   const bool is_late = tile_.mark(body, crosses ? partner::none : partner, order.time);
@@ -58,30 +70,23 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   transfers_.clear();
   const Counters& after = parts_.record.counters();
   orders_.resize(parts_.record.events().size(), order);
-  if (crosses) note_speed(body);
+  if (const std::uint64_t count = after.recordable() - before.recordable();
+      count > 0 && shared_.is_charged)
+    tile_.impact().charged().push_back(
+        {.time = order.time, .body = order.lower, .partner = order.higher, .count = count});
+  if (crosses) tile_.note_speed(body);
   for (const std::uint32_t other : changed_) {
-    note_speed(other);
-    if (parts_.places.grid().is_in_one_cell(other)) tile_.mark(other, partner::none, order.time);
+    tile_.note_speed(other);
+    if (parts_.places.grid().is_listed(other)) tile_.mark(other, partner::none, order.time);
   }
   const bool is_usual = after.hops == before.hops && after.freezes == before.freezes &&
                         after.rests == before.rests &&
-                        after.joint_impacts == before.joint_impacts &&
-                        after.goals == before.goals && changed_.size() <= 2;
+                        after.joint_impacts == before.joint_impacts && changed_.size() <= 2;
   if (!is_usual || parts_.clock.solver_failed) solver_failed_ = true;
   if (crosses) tile_.mark(body, partner::none, order.time);  // the cell that it came to
   if (!is_late) return;
   if (crosses || is_stale) tile_.note_late(body, order.time);
   for (const std::uint32_t other : changed_) tile_.note_late(other, order.time);
-}
-
-/// Who accelerates, since its last event, may be faster when the window ends.
-void LastPass::note_speed(std::uint32_t body) {
-  Flight flight = parts_.bodies[body];
-  const RealVector gain =
-      parts_.bodies.law(body).acceleration * (shared_.end - std::min(flight.time, shared_.begin));
-  flight.vx = std::abs(flight.vx) + std::abs(gain.x());
-  flight.vy = std::abs(flight.vy) + std::abs(gain.y());
-  tile_.courses().note_speed(flight);
 }
 
 void LastPass::keep(std::uint32_t body) {

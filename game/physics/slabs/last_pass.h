@@ -7,6 +7,7 @@
 
 #include "game/physics/bodies/before_images.h"
 #include "game/physics/bodies/observers.h"
+#include "game/physics/bodies/tolerances.h"
 #include "game/physics/engine/engine.h"
 #include "game/physics/events/event_order.h"
 #include "game/physics/real.h"
@@ -29,6 +30,8 @@ class LastPass final : public ChangeObserver {
   /// Whether it did what only the order of the whole field can tell: more than two bodies at once,
   /// or what depends on how many events come at one instant.
   bool solver_failed() const { return solver_failed_; }
+  /// A goal, at which time stops: nothing was played from there on, by this pass. Or infinite.
+  Real goal() const { return goal_; }
   /// The order of each event that was written down here.
   const std::vector<EventOrder>& orders() const { return orders_; }
   std::uint64_t played() const { return played_; }
@@ -37,8 +40,9 @@ class LastPass final : public ChangeObserver {
   void keep_flight(std::uint32_t body, const Flight& flight) override;
 
  private:
+  bool crosses(std::uint32_t body) const;
+  bool scores(std::uint32_t body) const;
   void process(std::uint32_t body, const EventOrder& order);
-  void note_speed(std::uint32_t body);
   void replace(std::uint32_t body, const Flight& flight, std::uint32_t version);
 
   Engine& engine_;
@@ -49,6 +53,7 @@ class LastPass final : public ChangeObserver {
   std::vector<std::uint32_t> changed_;  // by the event at hand
   Real time_ = 0.0;                     // of it
   bool solver_failed_ = false;
+  Real goal_ = infinity;
   std::uint64_t played_ = 0;
   std::vector<EventOrder> orders_;
   std::vector<EnergyTransfer> transfers_;  // of the event at hand

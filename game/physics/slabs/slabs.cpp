@@ -2,15 +2,12 @@
 #include "game/physics/slabs/slabs.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
-#include "game/physics/bodies/impact_history.h"
-#include "game/physics/bodies/jams.h"
-#include "game/physics/engine/rest_contacts.h"
-#include "game/physics/slabs/event_merge.h"
+#include "game/physics/bodies/tolerances.h"
+#include "game/physics/slabs/next_goal.h"
 #include "game/physics/slabs/window_check.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -21,15 +18,22 @@ namespace {
 constexpr std::uint64_t at_once_max = Clock::endless_events / 2;
 /// The shortest window, in units of that in which a third of the pending events come.
 constexpr double least_window = 1.0 / 8.0;
-/// Where a window had to be undone, so many after it block a cell more around what is put off.
-/// Where one of these has to be undone, windows get shorter by that, and else longer; not below
-/// that part of what the plan says.
-constexpr std::uint32_t wider_windows = 256;
-constexpr double shorter = 0.8, longer = 1.01, least_share = 0.125;
+/// How often an advance() that begins with few events looks whether there are more by now: a look
+/// costs next to nothing, and a short advance() is to be as fast as without.
+constexpr double looks_max = 16.0;
+
+std::uint32_t worker_count(const SlabPlan& plan) {
+  return plan.workers != nullptr ? plan.workers->count() : 1;
+}
 }  // namespace
 
 Slabs::Slabs(Engine& engine, const SlabPlan& plan)
-    : engine_(engine), parts_(engine.parts()), plan_(plan), books_(parts_.ledger) {
+    : engine_(engine),
+      parts_(engine.parts()),
+      plan_(plan),
+      books_(parts_.ledger),
+      lists_(parts_.places.grid(), parts_.events, worker_count(plan)),
+      shares_(worker_count(plan)) {
   assert(plan.tile_cells >= 4 && plan.block_radius >= 0 && plan.window > 0.0);
 }
 
@@ -41,23 +45,47 @@ std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
 }
 
 std::optional<Goal> Slabs::play(Real until) {
-  if (may_divide() && parts_.events.windows() == nullptr) {
-    parts_.events.keep_by(QueuePolicy::windows);
-    engine_.rebuild_from_state();
-  }
+  const Real pause = (until - parts_.clock.now) / Real(looks_max);
   while (parts_.clock.now < until) {
     engine_.predict_pending();  // first: cells made anew may make bodies wide
     if (!may_divide()) break;
-    const Real end = next_end(until);
-    if (!is_worth_dividing(end)) break;
-    // There are hardly more events in a window than bodies that wait for one.
-    const bool is_free = has_room(end, parts_.events.windows()->listed().size());
-    if (in_order_ == 0 && is_free && play_window(end)) continue;
-    if (in_order_ > 0) --in_order_;
-    if (auto goal = play_in_order(end)) return goal;
+    const Real now = parts_.clock.now, end = end_by_tiles(until);
+    Real end_in_order = now + pause > now ? std::min<Real>(until, now + pause) : until;
+    if (end > now) {
+      const Real goal = goal_by(end);
+      const bool ends_early = goal <= end;
+      if (plays_by_tiles(ends_early ? std::nextafter(goal, now) : end)) continue;
+      end_in_order = ends_early ? std::min<Real>(until, goal + Real(instant)) : end;
+    }
+    if (auto scored = play_in_order(end_in_order)) return scored;
     if (budget_ != nullptr && budget_->is_exceeded()) return std::nullopt;
   }
   return play_in_order(until);
+}
+
+/// Of the next window, if there are events enough for one; else now.
+Real Slabs::end_by_tiles(Real until) {
+  if (parts_.spec.queue == QueuePolicy::calendar) parts_.events.choose(plan_.bodies_min / 2);
+  if (parts_.events.windows() == nullptr) return parts_.clock.now;
+  const Real end = next_end(until);
+  return is_worth_dividing(end) ? end : parts_.clock.now;
+}
+
+/// When the first goal is to be expected, if it is by `end`.
+Real Slabs::goal_by(Real end) const {
+  const Real next = next_goal(parts_),
+             first = goal_ > parts_.clock.now ? std::min(goal_, next) : next;
+  return first <= end ? first : Real(infinity);
+}
+
+/// Whether it was possible up to `end`, or something was found that the next window ends before.
+bool Slabs::plays_by_tiles(Real end) {
+  // There are hardly more events in a window than bodies that wait for one.
+  const bool is_free = has_room(end, parts_.events.windows()->listed().size());
+  const bool has_played =
+      !pace_.is_patient() && is_free && is_worth_dividing(end) && play_window(end);
+  if (!has_played) pace_.note_in_order();
+  return has_played;
 }
 
 std::optional<Goal> Slabs::play_in_order(Real until) { return engine_.advance(until, budget_); }
@@ -78,7 +106,7 @@ std::uint64_t Slabs::events_played() const {
 /// one.
 Real Slabs::next_end(Real until) const {
   const Real now = parts_.clock.now, third = parts_.events.windows()->next_end(now) - now,
-             longest = third * Real(plan_.window * share_), left = until - now;
+             longest = third * Real(plan_.window * pace_.share()), left = until - now;
   return left > longest ? now + left / std::ceil(left / longest) : until;
 }
 
@@ -90,44 +118,33 @@ bool Slabs::is_worth_dividing(Real end) const {
          2 * queue.listed().size() >= plan_.bodies_min;
 }
 
-/// False, with nothing done, if it must be played in order.
+/// False, with nothing done, if it must be played in order. Nothing is done either where it has
+/// found a goal, which the next one ends before; one that is due already is played in order.
 bool Slabs::play_window(Real end) {
   begin_window(end);
   play_passes();
-  const bool was_right = is_right() && has_room(end, events_played());
-  be_patient(was_right && was_worth_it());
-  adapt(was_right);
-  was_right ? accept() : undo();
-  return was_right;
+  const bool is_cut = last_pass_->goal() < infinity, is_usual = this->is_usual(),
+             was_right = !is_cut && is_usual && has_missed_nothing(),
+             is_accepted = was_right && has_room(end, events_played());
+  if (is_cut) goal_ = last_pass_->goal();
+  else if (was_right && !is_accepted) pace_.note_no_room();
+  else pace_.note(was_right, was_right && was_worth_it());
+  is_accepted ? accept() : undo();
+  // One that has missed something misses less where more is blocked, or if it is shorter.
+  const bool is_tried_again = is_cut      ? goal_ > shared_.begin
+                              : was_right ? false
+                                          : is_usual && !pace_.is_patient();
+  return is_accepted || is_tried_again;
 }
 
 bool Slabs::was_worth_it() const {
   std::uint64_t events = last_pass_->played();
   for (const auto& tile : tiles_) {
     const Counters& part = tile->record().counters();
-    events += part.disc_impacts + part.crossings + part.stale_events;
+    events += part.impacts() + part.crossings + part.stale_events;
   }
   return static_cast<double>(last_pass_->played()) <=
          plan_.last_pass_max * static_cast<double>(events);
-}
-
-/// To few windows that have to be undone, and few events put off.
-void Slabs::adapt(bool was_right) {
-  if (was_right) {
-    share_ = std::min(1.0, share_ * longer);
-    wider_ -= std::min(wider_, 1u);
-  } else if (wider_ == 0) {
-    wider_ = wider_windows;
-  } else {
-    share_ = std::max(least_share, share_ * shorter);
-  }
-}
-
-/// Where tiles are of no use it should cost little to find out.
-void Slabs::be_patient(bool was_good) {
-  constexpr std::uint32_t in_order_max = 64;
-  in_order_last_ = was_good ? 0 : std::min(in_order_max, 2 * in_order_last_ + 1);
-  in_order_ = in_order_last_ / 2;
 }
 
 /// Whether pucks fly straight unless something presses them, and impacts may be simple.
@@ -136,9 +153,7 @@ bool Slabs::may_divide() const {
   return parts_.bodies.count() >= plan_.bodies_min && parts_.observers.before == nullptr &&
          parts_.observers.journal == nullptr && spec.queue != QueuePolicy::heap &&
          counts_touching() && spec.puck_friction == 0.0 && !spec.surface_friction &&
-         !spec.allow_overlap && !parts_.places.grid().wide().has([&](std::uint32_t body) {
-           return !parts_.bodies.is_fixed(body);
-         });
+         !spec.allow_overlap;
 }
 
 void Slabs::begin_window(Real end) {
@@ -146,7 +161,7 @@ void Slabs::begin_window(Real end) {
   const CellGrid& grid = parts_.places.grid();
   if (shared_.latest.size() != count) {
     shared_.latest.assign(count, {});
-    const std::uint32_t workers = plan_.workers != nullptr ? plan_.workers->count() : 1;
+    const std::uint32_t workers = worker_count(plan_);
     last_pass_ = std::make_unique<LastPass>(engine_, shared_, workers, workers + 1);
     tiles_.clear();
     all_tiles_ = {&last_pass_->tile()};
@@ -160,11 +175,11 @@ void Slabs::begin_window(Real end) {
   tile_side_ = tile_side();
   ++shared_.number;
   shared_.begin = parts_.clock.now, shared_.end = end;
-  shared_.block_radius = plan_.block_radius + (wider_ > 0 ? 1 : 0);
+  shared_.block_radius = plan_.block_radius + (pace_.blocks_wider() ? 1 : 0);
+  shared_.is_charged = budget_ != nullptr;
   before_ = engine_.mark();
   books_.begin_window();
   events_before_ = parts_.record.events().size();
-  put_off_.clear();
   const bool is_kept = parts_.record.is_kept();
   for (const auto& tile : tiles_) tile->begin_window();
   last_pass_->begin_window();
@@ -173,11 +188,12 @@ void Slabs::begin_window(Real end) {
 
 /// The side that the plan says, changed so that tiles fill the longer side of the field: a narrow
 /// last one would be all edge.
-int Slabs::tile_side() const {
+std::uint32_t Slabs::tile_side() const {
   const CellGrid& grid = parts_.places.grid();
-  const int cells = static_cast<int>(std::max(grid.columns(), grid.rows())),
-            count = std::max(1, (cells + plan_.tile_cells / 2) / plan_.tile_cells);
-  return std::max(4, (cells + count - 1) / count);
+  const auto planned = static_cast<std::uint32_t>(plan_.tile_cells);
+  const std::uint32_t cells = std::max(grid.columns(), grid.rows()),
+                      count = std::max(1u, (cells + planned / 2) / planned);
+  return std::max(4u, (cells + count - 1) / count);
 }
 
 void Slabs::play_passes() {
@@ -189,69 +205,37 @@ void Slabs::play_passes() {
   slab_counters().last_pass += last_pass_->played();
 }
 
+/// Those who play so many events at once; null where one is enough.
+Workers* Slabs::workers_for(std::size_t events) const {
+  return tiles_.size() > 1 && events >= plan_.shared_min ? plan_.workers : nullptr;
+}
+
 void Slabs::play_tiles() {
-  const int half = tile_side_ / 2;
-  due_.clear();
-  WindowQueue& queue = *parts_.events.windows();
-  for (const std::uint32_t body : queue.listed())
-    if (queue.entries()[body].time <= shared_.end) due_.push_back(body);
-  play_pass({0, 0, true}, due_);
-  for (const Pass& pass : {Pass{half, half, false}, Pass{half, 0, false}, Pass{0, half, false}}) {
-    if (put_off_.empty()) return;
-    listed_.swap(put_off_);
-    play_pass(pass, listed_);
+  using Shift = Tiling::Shift;
+  const CellGrid& grid = parts_.places.grid();
+  const std::uint32_t half = tile_side_ / 2;
+  const Tiling first(grid, tile_side_, {});
+  lists_.list_due(first, shared_.end, workers_for(parts_.events.windows()->listed().size()));
+  play_listed(first, false);
+  for (const Shift shift : {Shift{half, half}, Shift{half, 0}, Shift{0, half}}) {
+    if (put_off_.empty()) break;
+    const Tiling shifted(grid, tile_side_, shift);
+    lists_.list(shifted, put_off_, shared_.end);
+    play_listed(shifted, true);
   }
+  put_off_.insert(put_off_.end(), lists_.wide().begin(), lists_.wide().end());
 }
 
-void Slabs::play_pass(const Pass& shifted, std::span<const std::uint32_t> bodies) {
-  const CellGrid& grid = parts_.places.grid();
-  Pass pass = shifted;
-  const auto tiles = [side = tile_side_](std::uint32_t cells, int shift) {
-    return (static_cast<int>(cells) + shift + side - 1) / side;
+void Slabs::play_listed(const Tiling& tiling, bool can_be_late) {
+  auto play = [&](std::uint32_t worker) {
+    while (const auto tile = shares_.next(worker))
+      tiles_[worker]->play(tiling.cells_of(*tile),
+                           {lists_.in(*tile, worker), lists_.wide_in(*tile)}, can_be_late);
   };
-  pass.across = tiles(grid.columns(), pass.shift_columns);
-  pass.along = tiles(grid.rows(), pass.shift_rows);
-  list_by_tile(pass, bodies);
-  const auto count = static_cast<std::uint32_t>(pass.across * pass.along);
-  if (tiles_.size() == 1 || bodies.size() < plan_.shared_min) {
-    for (std::uint32_t number = 0; number < count; ++number)
-      play_listed(pass, *tiles_.front(), number);
-  } else {
-    std::atomic<std::uint32_t> next = 0;
-    auto play = [&](std::uint32_t worker) {
-      for (std::uint32_t number = next++; number < count; number = next++)
-        play_listed(pass, *tiles_[worker], number);
-    };
-    run_on(*plan_.workers, play);
-  }
+  shares_.begin(tiling.count());
+  if (Workers* const workers = workers_for(lists_.count())) run_on(*workers, play);
+  else play(0);
   take_put_off();
-}
-
-void Slabs::list_by_tile(const Pass& pass, std::span<const std::uint32_t> bodies) {
-  const CellGrid& grid = parts_.places.grid();
-  const int side = tile_side_;
-  lists_.resize(std::max(lists_.size(), static_cast<std::size_t>(pass.across * pass.along)));
-  for (auto& list : lists_) list.clear();
-  const EventOrder* entries = parts_.events.windows()->entries();
-  for (const std::uint32_t body : bodies) {
-    if (!(entries[body].time <= shared_.end)) continue;
-    assert(grid.is_listed(body));
-    const int column = (grid.place(body).column + pass.shift_columns) / side,
-              row = (grid.place(body).row + pass.shift_rows) / side;
-    lists_[static_cast<std::size_t>(row * pass.across + column)].push_back(body);
-  }
-}
-
-/// By `tile`, the tile of that number.
-void Slabs::play_listed(const Pass& pass, Tile& tile, std::uint32_t number) {
-  const CellGrid& grid = parts_.places.grid();
-  const int side = tile_side_, columns = static_cast<int>(grid.columns()),
-            rows = static_cast<int>(grid.rows());
-  const int column = static_cast<int>(number) % pass.across * side - pass.shift_columns,
-            row = static_cast<int>(number) / pass.across * side - pass.shift_rows;
-  tile.play({std::max(0, column), std::max(0, row), std::min(columns, column + side),
-             std::min(rows, row + side)},
-            lists_[number], !pass.is_first);
 }
 
 void Slabs::take_put_off() {
@@ -259,139 +243,26 @@ void Slabs::take_put_off() {
   for (const auto& tile : tiles_) {
     put_off_.insert(put_off_.end(), tile->put_off().begin(), tile->put_off().end());
     tile->put_off().clear();
+    if (!tile->wide_put_off().empty()) lists_.add_wide(tile->wide_put_off());
   }
   slab_counters().put_off += put_off_.size();
 }
 
-bool Slabs::is_right() const {
+/// Whether nothing came of which only the order of the whole field can tell what it does.
+bool Slabs::is_usual() const {
   const auto has_too_many = [](const Tile* tile) { return tile->at_once_max() >= at_once_max; };
   return !last_pass_->solver_failed() && parts_.clock.events_at_once < at_once_max &&
-         std::ranges::none_of(all_tiles_, has_too_many) &&
-         WindowCheck(parts_, shared_, all_tiles_).is_right();
+         std::ranges::none_of(all_tiles_, has_too_many);
 }
 
-void Slabs::accept() {
-  for (Tile* tile : all_tiles_) slab_counters().late += tile->courses().late().size();
-  if (budget_ != nullptr) budget_->charge_unseen(shared_.end, events_played());
-  take_clock();
-  note_changes();
-  add_counters();
-  merge_events();
-  enter_books();
-  parts_.clock.arrive(shared_.end);
+bool Slabs::has_missed_nothing() const {
+  return WindowCheck(parts_, shared_, all_tiles_).is_right(workers_for(late_count()));
 }
 
-/// In order of their ids, whoever awakened them: the queue chooses the next window by its list.
-void Slabs::list_awakened() {
-  listed_.clear();
-  for (Tile* tile : all_tiles_)
-    listed_.insert(listed_.end(), tile->awakened().begin(), tile->awakened().end());
-  std::sort(listed_.begin(), listed_.end());
-  for (const std::uint32_t body : listed_) parts_.events.windows()->list(body);
-}
-
-/// Of the latest event of all.
-void Slabs::take_clock() {
-  Clock& clock = parts_.clock;
-  for (Tile* tile : all_tiles_) {
-    const Clock& own = tile->clock();
-    if (!is_later(own, clock)) continue;
-    if (own.instant_begin > clock.instant_begin) clock.solver_failed = false;
-    clock.instant_begin = own.instant_begin, clock.events_at_once = own.events_at_once;
-  }
-}
-
-/// In order of their ids, whoever changed them. Where many changed, to look at all is cheaper than
-/// to sort.
-void Slabs::note_changes() {
-  const std::uint32_t count = parts_.bodies.count();
-  std::size_t replaced = 0;
-  for (Tile* tile : all_tiles_) replaced += tile->courses().replaced().size();
-  if (32 * replaced > count) {
-    for (std::uint32_t body = 0; body < count; ++body)
-      if (shared_.latest[body].window == shared_.number) parts_.bodies.changes().note(body);
-    return;
-  }
-  listed_.clear();
-  for (Tile* tile : all_tiles_)
-    for (const Courses::Replaced& r : tile->courses().replaced()) listed_.push_back(r.body);
-  std::sort(listed_.begin(), listed_.end());
-  for (const std::uint32_t body : listed_) parts_.bodies.changes().note(body);
-}
-
-void Slabs::add_counters() {
-  Counters& sum = parts_.record.counters();
-  for (Tile* tile : all_tiles_) {
-    const Counters& part = tile->record().counters();
-    sum.disc_impacts += part.disc_impacts, sum.crossings += part.crossings;
-    sum.stale_events += part.stale_events, sum.predictions += part.predictions;
-    sum.evaluations += part.evaluations, sum.bodies_touched += part.bodies_touched;
-    sum.events_at_once_max = std::max(sum.events_at_once_max, tile->at_once_max());
-  }
-}
-
-/// In the order in which one loop would have written them.
-void Slabs::merge_events() {
-  if (!parts_.record.is_kept()) return;
-  std::vector<OrderedEvent> merged;
-  const std::span<const Event> own = parts_.record.events().subspan(events_before_);
-  for (std::size_t k = 0; k < own.size(); ++k)
-    merged.push_back({last_pass_->orders()[events_before_ + k], own[k]});
-  for (Tile* tile : all_tiles_)
-    for (const Event& event : tile->record().events())
-      merged.push_back({{event.time, event.body.index, event.other->index}, event});
-  parts_.record.replace_from(events_before_, in_order(std::move(merged)));
-}
-
-void Slabs::enter_books() {
-  if (!books_.are_kept()) return;
-  for (Tile* tile : all_tiles_) books_.add(tile->impact().book());
-  books_.enter();
-}
-
-/// Back to where the window began.
-void Slabs::undo() {
-  books_.undo();
-  for (const BeforeImages::KeptState& kept : last_pass_->images().states()) {
-    BodyState state = kept.state;
-    state.flight = parts_.bodies[kept.body];
-    parts_.bodies.write(kept.body, state);
-    parts_.history.write(kept.body, state);
-    parts_.jams.write(kept.body, state);
-  }
-  for (Tile* tile : all_tiles_) tile->impact().undo();
-  for (Tile* tile : all_tiles_)
-    for (const Courses::Replaced& r : tile->courses().replaced())
-      if (r.earlier == Courses::none) parts_.bodies.take_back(r.body, r.flight, r.version);
-  parts_.rests.restore(before_.rest_contacts);
-  parts_.jams.restore(before_.frozen, before_.jam_count);
-  parts_.clock = before_.clock;
-  const SlabCounters slabs = slab_counters();
-  parts_.record.counters() = before_.counters;
-  slab_counters() = slabs;
-  ++slab_counters().undone;
-  parts_.record.replace_from(events_before_, {});
-  parts_.bodies.forget_touched();
-  const bool is_all_in_flight = parts_.bodies.curved_count() == 0 && !last_pass_->solver_failed();
-  is_all_in_flight ? look_anew() : engine_.rebuild_from_state();
-}
-
-/// Who had an event or was hit is listed where it was and looks around once more; what all others
-/// expect holds again.
-void Slabs::look_anew() {
-  listed_ = due_;
-  for (Tile* tile : all_tiles_)
-    for (const Courses::Replaced& r : tile->courses().replaced()) listed_.push_back(r.body);
-  std::sort(listed_.begin(), listed_.end());
-  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
-  for (const std::uint32_t body : listed_) {
-    parts_.places.remove(body);
-    parts_.places.insert(body, position_at(parts_.bodies, body, shared_.begin));
-  }
-  WindowQueue& queue = *parts_.events.windows();
-  queue.reopen(shared_.begin, shared_.end, {});  // or each event would be sorted in at once
-  for (const std::uint32_t body : listed_) last_pass_->tile().predict(body);
-  queue.reopen(shared_.begin, shared_.end, queue.listed());
+std::size_t Slabs::late_count() const {
+  std::size_t sum = 0;
+  for (Tile* tile : all_tiles_) sum += tile->courses().late().size();
+  return sum;
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -18,20 +18,29 @@
 //
 // Tiles. They play a window alone, one after the other. They put off what touches a cell at their
 // edge or a blocked cell, and all but crossings, stale events and simple impacts: of two pucks in
-// free flight, neither slow nor following each other closely, with no third body within 1e-6 m,
-// none on a curve in sight, and no other impact of theirs within 1e-9 s. So whether an impact is
-// alone at its instant, which the plain loop asks its whole queue, does not matter to what a tile
-// plays; chains of bodies that touch, bats and goals are left to the last pass. Putting off blocks
-// the cells of the event's bodies for all, so that a body's events keep their order, and those
-// within the block radius for impacts, which replace courses. Tiles shifted by half their size
-// along both axes, then along one and along the other, play what was put off; the last pass knows
-// no tiles and all kinds of events.
+// free flight, or of one with a wall, a bat or a post, not slow nor following each other closely,
+// with no third body or wall within 1e-6 m, and no other impact of theirs within 1e-9 s. So whether
+// an impact is alone at its instant, which the plain loop asks its whole queue, does not matter to
+// what a tile plays; chains of bodies that touch and goals are left to the last pass. Putting off
+// blocks the cells of the event's bodies for all, so that a body's events keep their order, and
+// those within the block radius for impacts, which replace courses. Tiles shifted by half their
+// size along both axes, then along one and along the other, play what was put off; the last pass
+// knows no tiles and all kinds of events.
 //
-// Threads. Tiles of one pass have no cell in common, and a body's record, next event and place are
-// written by the tile in whose cells it is; none comes to another tile, for crossings at edges are
-// put off. An event reads cells and bodies next to its own, which are the tile's own. Of a partner
-// elsewhere only the place is asked, which says that it is elsewhere whether it moves just then or
-// not. So nothing depends on who plays which tile, nor when.
+// Wide bodies, as long bats are, stand in many cells. Where a tile holds all of these, and none is
+// blocked, it plays their events. Else they are left to the last pass; from the first one on, tiles
+// replace no course in the cells where the wide one stands.
+//
+// Goals. Time stops at one, so a window ends before the first that is to be expected, and is
+// undone where another comes.
+//
+// Threads. Each worker looks at a part of what is pending, plays tiles of its own part of the field
+// first, and checks what came late there. Tiles of one pass have no cell in common, and a body's
+// record, next event and place are written by the tile in whose cells it is; none comes to another
+// tile, for crossings at edges are put off. An event reads cells and bodies next to its own, which
+// are the tile's own. Of a partner elsewhere only the place is asked, which says that it is
+// elsewhere whether it moves just then or not. So nothing depends on who plays which tile, nor
+// when.
 //
 // Check. Within one tile and pass events come in order, so only what was put off can be late: a
 // cell next to its own has seen a later event. Its courses, until their next events, are compared
@@ -43,10 +52,10 @@
 // and how often the check fails, never the result.
 //
 // Undo. Where the check fails, or the last pass did what depends on more than the bodies concerned
-// (a joint impact, a hop, a rest contact, a goal, many events at one instant, an event that another
-// of its instant brought about), what bodies were before is put back, and the window is played in
-// order. Where only the check failed and all fly straight, those look anew who had an event or were
-// hit; else all do.
+// (a joint impact, a hop, a rest contact, many events at one instant, an event that another of its
+// instant brought about), what bodies were before is put back, and the window is played in order;
+// once more by tiles, which block more or make windows shorter, where only the check failed. There,
+// or where a goal came, those look anew who had an event or were hit; else all do.
 //
 // Books. What an event takes from the energy waits in a list, and is added to the sums in the order
 // in which one loop would have, once the window is right.
@@ -59,11 +68,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "game/physics/bodies/before_images.h"
 #include "game/physics/bodies/clock.h"
+#include "game/physics/bodies/tolerances.h"
 #include "game/physics/bodies/world_mark.h"
 #include "game/physics/counters.h"
 #include "game/physics/engine/engine.h"
@@ -73,7 +82,12 @@
 #include "game/physics/slab_plan.h"
 #include "game/physics/slabs/books.h"
 #include "game/physics/slabs/last_pass.h"
+#include "game/physics/slabs/pace.h"
 #include "game/physics/slabs/tile.h"
+#include "game/physics/slabs/tile_lists.h"
+#include "game/physics/slabs/tile_shares.h"
+#include "game/physics/slabs/tiling.h"
+#include "game/physics/workers.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -84,41 +98,36 @@ class Slabs {
   Slabs(const Slabs&) = delete;
   Slabs& operator=(const Slabs&) = delete;
 
-  /// As Engine::advance(), with or without a budget. Windows that tiles play are within it; their
-  /// events are charged, but not named.
+  /// As Engine::advance(), with or without a budget. Windows that tiles play are within it.
   std::optional<Goal> advance(Real until, EventBudget* budget = nullptr);
 
  private:
-  /// Tiles, which begin so many cells before the field does.
-  struct Pass {
-    int shift_columns, shift_rows;
-    bool is_first;
-    int across = 0, along = 0;  // tiles
-  };
-
   SlabCounters& slab_counters() { return parts_.record.counters().slabs; }
   bool may_divide() const;
+  Real end_by_tiles(Real until);
   Real next_end(Real until) const;
   bool is_worth_dividing(Real end) const;
   std::optional<Goal> play(Real until);
+  Real goal_by(Real end) const;
   std::optional<Goal> play_in_order(Real until);
   bool has_room(Real end, std::uint64_t events) const;
   std::uint64_t events_played() const;
+  bool plays_by_tiles(Real end);
   bool play_window(Real end);
-  void adapt(bool was_right);
-  void be_patient(bool was_good);
   bool was_worth_it() const;
   void begin_window(Real end);
-  int tile_side() const;
+  std::uint32_t tile_side() const;
+  Workers* workers_for(std::size_t events) const;
   void play_passes();
   void play_tiles();
-  void play_pass(const Pass& pass, std::span<const std::uint32_t> bodies);
-  void list_by_tile(const Pass& pass, std::span<const std::uint32_t> bodies);
-  void play_listed(const Pass& pass, Tile& tile, std::uint32_t number);
+  void play_listed(const Tiling& tiling, bool can_be_late);
   void take_put_off();
-  bool is_right() const;
+  bool is_usual() const;
+  bool has_missed_nothing() const;
+  std::size_t late_count() const;
   void accept();
   void list_awakened();
+  void charge();
   void take_clock();
   void note_changes();
   void add_counters();
@@ -135,17 +144,16 @@ class Slabs {
   SharedWindow shared_;
   std::vector<std::unique_ptr<Tile>> tiles_;  // one for each worker
   std::unique_ptr<LastPass> last_pass_;
-  std::vector<Tile*> all_tiles_;                   // that of the last pass, then the others
-  std::vector<std::uint32_t> due_, put_off_;       // when the window begins, by a pass
-  std::vector<std::vector<std::uint32_t>> lists_;  // of a pass, by tile
-  std::vector<std::uint32_t> listed_;              // by each step for itself
-  int tile_side_ = 0;                              // cells
-  std::uint32_t wider_ = 0;                        // windows that block a cell more: still
-  double share_ = 1.0;                             // of the window's length that the plan says
-  WorldMark before_;                               // the window
+  std::vector<Tile*> all_tiles_;        // that of the last pass, then the others
+  TileLists lists_;                     // of a pass
+  TileShares shares_;                   // in it
+  std::vector<std::uint32_t> put_off_;  // by the pass before
+  std::vector<std::uint32_t> listed_;   // by each step for itself
+  std::uint32_t tile_side_ = 0;         // cells
+  Pace pace_;                           // of windows
+  Real goal_ = infinity;                // that a window has found
+  WorldMark before_;                    // the window
   std::size_t events_before_ = 0;
-  std::uint32_t in_order_ = 0,
-                in_order_last_ = 0;  // windows to be played in order: still, at first
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

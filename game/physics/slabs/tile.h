@@ -13,19 +13,14 @@
 #include "game/physics/events/event_bins.h"
 #include "game/physics/events/window_queue.h"
 #include "game/physics/grid/cell_grid.h"
+#include "game/physics/grid/cell_lists.h"
 #include "game/physics/real.h"
+#include "game/physics/slabs/blocked_cells.h"
 #include "game/physics/slabs/courses.h"
-#include "game/physics/slabs/pair_impact.h"
+#include "game/physics/slabs/tile_impact.h"
+#include "game/physics/slabs/tiling.h"
 
 namespace rink::physics::inline RINK_PRECISION {
-
-/// Columns and rows of cells, the end excluded.
-struct CellRange {
-  int first_column, first_row, end_column, end_row;
-
-  std::uint32_t columns() const { return static_cast<std::uint32_t>(end_column - first_column); }
-  std::uint32_t rows() const { return static_cast<std::uint32_t>(end_row - first_row); }
-};
 
 /// What all workers share. Different tiles never write the same body's, nor the same cell's.
 struct SharedWindow {
@@ -34,6 +29,7 @@ struct SharedWindow {
   std::uint32_t number = 0;
   Real begin = 0.0, end = 0.0;  ///< s, the end included
   int block_radius = 2;         ///< cells
+  bool is_charged = false;      ///< a budget asks who had the events
 
   Real& played_at(int column, int row, int columns) {
     return played[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -48,8 +44,8 @@ inline bool is_later(const Clock& a, const Clock& b) {
                                             : a.events_at_once > b.events_at_once;
 }
 
-/// A worker's tile: it plays one after the other. It plays free flight, and impacts of two pucks
-/// that concern no third body; it puts off all else.
+/// A worker's tile: it plays one after the other. It plays free flight, and impacts of pucks, with
+/// each other, walls, bats or posts, that concern no third body; it puts off all else.
 class Tile {
  public:
   Tile(const Engine::Parts& engine, SharedWindow& shared, std::uint32_t number,
@@ -59,9 +55,13 @@ class Tile {
 
   /// Nothing has been played of the window.
   void begin_window();
-  /// Plays the events of `bodies`, all in `range`, and what they bring about. Who was put off in an
-  /// earlier pass `can_be_late`.
-  void play(const CellRange& range, std::span<const std::uint32_t> bodies, bool can_be_late);
+  /// The small ones of those who have an event in some cells, and the wide ones who stand there.
+  struct Listed {
+    std::span<const std::uint32_t> small, wide;
+  };
+  /// Plays the events of the small ones, all in `range`, and what they bring about. Who was put off
+  /// in an earlier pass `can_be_late`.
+  void play(const CellRange& range, const Listed& listed, bool can_be_late);
   /// Plays the event of `body`, which is the first of all that are left in the whole field, and
   /// tells the schedule; false, with nothing done, if that is not for a tile.
   bool play_first_of_all(std::uint32_t body);
@@ -69,26 +69,33 @@ class Tile {
   /// processed by somebody else; and after that how they go on.
   bool mark(std::uint32_t body, Partner partner, Real time);
   void note_late(std::uint32_t body, Real time);
+  /// Lists it where it is at `time`, before a crossing that came too early. False, with nothing
+  /// done, if that cannot be done here.
   bool put_back(std::uint32_t body, Real time);
+  /// Of the flight that a body has begun; who accelerates may be faster when the window ends.
+  void note_speed(std::uint32_t body);
   /// Its next event, as if nothing were known, and tells the schedule.
-  void predict(std::uint32_t body) { prediction_.predict(body); }
+  void predict(std::uint32_t body) {
+    clock_.now = shared_.begin;  // before which nobody on a curve leaves a cell
+    prediction_.predict(body);
+  }
 
   /// Since begin_window().
   std::vector<std::uint32_t>& put_off() { return put_off_; }
+  std::span<const std::uint32_t> wide_put_off() const { return wide_put_off_; }
   std::span<const std::uint32_t> awakened() const { return awakened_; }
   Courses& courses() { return courses_; }
   /// At the latest event since then.
   const Clock& clock() const { return is_later(clock_, latest_) ? clock_ : latest_; }
   EventRecord& record() { return record_; }
   const EventRecord& record() const { return record_; }
-  /// With its books, where the last pass adds what the engine's events took.
-  PairImpact& impact() { return impact_; }
+  /// With its books and charges, to which the last pass adds those of the engine's events.
+  TileImpact& impact() { return impact_; }
   std::uint64_t at_once_max() const { return at_once_max_; }
 
  private:
   using Place = CellGrid::Place;
 
-  enum class Blocked : std::uint8_t { for_nobody, for_impacts, for_all };
   /// An event of a body, its cell, and the other cell that the event concerns.
   struct Encounter {
     std::uint32_t body;
@@ -96,25 +103,39 @@ class Tile {
     Real time;
     bool crosses;
     Place from, to;
+    bool is_with_wide = false;  // a partner that is
   };
 
-  void open(const CellRange& range);
-  void close_edges(int width, Blocked blocked);
   void fetch(std::span<const std::uint32_t> bodies);
   void fetch_all();
   void fetch(std::uint32_t body) const;
   Encounter encounter_of(std::uint32_t body, Real time) const;
   bool play_event(const Encounter& encounter);
+  bool leaves_by(CellGrid::Direction direction, Real time, std::uint32_t body) const;
   bool cross(std::uint32_t body);
+  void return_to(const Place& before, std::uint32_t body);
   bool collide(std::uint32_t body, std::uint32_t other, Real time);
+  bool rebound(std::uint32_t body, Partner wall, Real time);
+  bool settle_pair(std::uint32_t body, std::uint32_t other, Real time);
+  void enter_impact(std::uint32_t body, const Flight& before, Real time);
   void publish(std::uint32_t body);
-  Blocked blocked(const Place& place) const;
+  /// And not wide.
+  bool is_in_one_cell(const Place& place) const { return place.column < places_.grid().columns(); }
   bool is_impact(const Encounter& encounter) const;
   bool may_play(const Encounter& encounter) const;
   void put_off(const Encounter& encounter);
-  void block(const CellRange& cells, Blocked whom);
-  bool is_late(const Place& place, Real time);
+  void close_around_wide(const Encounter& encounter);
+  bool play_wide(const Encounter& encounter);
+  bool cross_wide(std::uint32_t body, Real time);
+  bool play_near_wide(const Encounter& encounter);
+  bool play_with_wide(const Encounter& encounter, std::uint32_t wide, std::uint32_t puck);
+  bool strike(std::uint32_t body, std::uint32_t other, Real time);
+  bool is_late(const CellBlock& cells, Real time);
+  bool is_late(const Place& place, Real time) {
+    return is_late({place.column, place.row, place.column, place.row}, time);
+  }
   void mark_cell(const Place& place, Real time);
+  void mark_cells(const CellBlock& cells, Real time);
 
   SharedWindow& shared_;
   Bodies& bodies_;
@@ -125,12 +146,11 @@ class Tile {
   std::uint64_t at_once_max_ = 0;
   Prediction prediction_;
   Courses courses_;
-  PairImpact impact_;
+  TileImpact impact_;
   EventBins bins_;
-  CellRange range_{};
+  BlockedCells cells_;
   bool can_be_late_ = false, is_whole_ = false;
-  std::vector<Blocked> blocked_;  // by cell of the range
-  std::vector<std::uint32_t> put_off_, awakened_, near_;
+  std::vector<std::uint32_t> put_off_, wide_put_off_, awakened_, near_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

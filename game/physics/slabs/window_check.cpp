@@ -2,6 +2,7 @@
 #include "game/physics/slabs/window_check.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -25,35 +26,54 @@ Real WindowCheck::greatest_speed() const {
   return std::sqrt(square);
 }
 
-bool WindowCheck::is_right() const {
-  Real speed = -1.0;
-  for (Tile* tile : tiles_)
-    for (const Courses::Late& late : tile->courses().late()) {
-      if (speed < 0.0) speed = greatest_speed();
-      if (meets_unseen(late, speed)) return false;
-    }
-  return true;
+bool WindowCheck::is_right(Workers* workers) const {
+  const Real speed = greatest_speed();
+  if (workers == nullptr)
+    return std::ranges::all_of(
+        tiles_, [&](Tile* tile) { return are_right(tile->courses().late(), speed); });
+  assert(workers->count() + 1 == tiles_.size());
+  const std::span<const Courses::Late> last = tiles_[0]->courses().late();
+  std::atomic<bool> are_all_right = true;
+  auto check = [&](std::uint32_t worker) {
+    const std::size_t first = last.size() * worker / workers->count(),
+                      end = last.size() * (worker + 1) / workers->count();
+    if (!are_right(tiles_[worker + 1]->courses().late(), speed) ||
+        !are_right(last.subspan(first, end - first), speed))
+      are_all_right.store(false, std::memory_order_relaxed);
+  };
+  run_on(*workers, check);
+  return are_all_right;
 }
 
-/// Where those are listed whom the course may meet by the end of the window, when all are listed
-/// right and none has been faster than `speed`.
-CellGrid::Range WindowCheck::range_of(const Courses::Late& late, Real speed) const {
+bool WindowCheck::are_right(std::span<const Courses::Late> late, Real speed) const {
+  return std::ranges::none_of(
+      late, [&](const Courses::Late& course) { return meets_unseen(course, speed); });
+}
+
+/// Where those are listed whom the course may meet by its `end`, when the window is over, all are
+/// listed right and none has been faster than `speed`.
+CellGrid::Range WindowCheck::range_of(const Courses::Late& late, Real end, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
-  const Real left = shared_.end - late.from;
+  const Real lasts = end - late.from;
   const bool is_curved = parts_.bodies[late.body].is(Body::curved),
              is_straight = !is_curved && parts_.spec.puck_drag == 0.0;
   const Flight& flight = late.flight;
-  RealVector own_speed(std::abs(flight.vx), std::abs(flight.vy));  // which drag only lessens
-  if (is_curved)
-    own_speed +=
-        (parts_.bodies.law(late.body).acceleration * (shared_.end - flight.time)).cwiseAbs();
+  const RealVector velocity(flight.vx, flight.vy);  // which drag only lessens
+  RealVector back = (velocity * lasts).cwiseMin(0.0), forth = (velocity * lasts).cwiseMax(0.0);
+  if (is_curved) {
+    const RealVector gain =
+        parts_.bodies.law(late.body).acceleration * (shared_.end - flight.time) * lasts;
+    back += gain.cwiseMin(0.0), forth += gain.cwiseMax(0.0);
+  }
   const RealVector start = is_straight
                                ? RealVector(flight.x + flight.vx * (late.from - flight.time),
                                             flight.y + flight.vy * (late.from - flight.time))
                                : motion_of({late.body, flight}).at(late.from).position;
-  const Real reach = 2.0 * parts_.places.reach() + Real(0.1 * grid.side());  // and cells' margins
-  const RealVector far = RealVector::Constant(reach + speed * left) + own_speed * left;
-  const auto low = (start - far).cast<double>().eval(), high = (start + far).cast<double>().eval();
+  const Real reach = parts_.places.reach() + Real(0.1 * grid.side());  // and cells' margins
+  const RealVector far = extent_of(parts_.bodies, late.body) +
+                         RealVector::Constant(reach + speed * (shared_.end - late.from));
+  const auto low = (start + back - far).cast<double>().eval(),
+             high = (start + forth + far).cast<double>().eval();
   return {grid.column(low.x()), grid.row(low.y()), grid.column(high.x()), grid.row(high.y())};
 }
 
@@ -61,8 +81,8 @@ CellGrid::Range WindowCheck::range_of(const Courses::Late& late, Real speed) con
 /// cells out of sight. Both take a later event, of which the cell tells where the other body is.
 bool WindowCheck::meets_unseen(const Courses::Late& late, Real speed) const {
   const CellGrid& grid = parts_.places.grid();
-  const CellGrid::Range range = range_of(late, speed);
   const Real end = std::min(end_of(late), shared_.end);
+  const CellGrid::Range range = range_of(late, end, speed);
   bool meets = false;
   for (std::uint32_t row = range.row_low; row <= range.row_high; ++row)
     for (std::uint32_t column = range.column_low; column <= range.column_high; ++column) {
@@ -89,6 +109,7 @@ bool WindowCheck::meets_unseen(const Courses::Late& late, std::uint32_t other, R
 /// are the same all through a window.
 bool WindowCheck::meets_by(const Courses::Late& late, const Course& other, Real end) const {
   const Bodies& bodies = parts_.bodies;
+  if (!(other.flight.time < end)) return false;
   std::optional<Real> time;
   if (!bodies[late.body].is(Body::curved) && !bodies[other.body].is(Body::curved)) {
     const Real drag = parts_.spec.puck_drag, reach = late.flight.radius + other.flight.radius;

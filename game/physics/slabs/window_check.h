@@ -12,6 +12,7 @@
 #include "game/physics/real.h"
 #include "game/physics/slabs/courses.h"
 #include "game/physics/slabs/tile.h"
+#include "game/physics/workers.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -24,15 +25,17 @@ class WindowCheck {
     assert(tiles.size() >= 2);
   }
 
-  bool is_right() const;
+  /// By `workers`, each of them its own tiles' part; by the caller if null.
+  bool is_right(Workers* workers = nullptr) const;
 
  private:
   struct Course {
     std::uint32_t body;
-    Flight flight;
+    const Flight& flight;
   };
 
-  CellGrid::Range range_of(const Courses::Late& late, Real speed) const;
+  bool are_right(std::span<const Courses::Late> late, Real speed) const;
+  CellGrid::Range range_of(const Courses::Late& late, Real end, Real speed) const;
   bool meets_unseen(const Courses::Late& late, Real speed) const;
   bool meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const;
   bool meets_by(const Courses::Late& late, const Course& other, Real end) const;

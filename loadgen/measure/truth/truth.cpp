@@ -7,7 +7,7 @@
 
 #include "game/net/trace_lines.h"
 #include "game/net/view.h"
-#include "loadgen/measure/discovery_table.h"
+#include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/measure/truth/classification.h"
 #include "loadgen/measure/truth/replay_judgement.h"
 #include "loadgen/measure/truth/trace.h"

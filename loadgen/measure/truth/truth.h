@@ -37,8 +37,8 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
 /// Reads both files and fills `record.truth` and `record.tick_us`. A trace that is missing,
 /// truncated or altered leaves the figures absent, with the reason in `record.truth.error`; a
 /// replay that ends in another state makes the run invalid. The delays of discovery are written to
-/// `discovery_file` (loadgen/measure/discovery_table.h), if there is one; throws OutputError if
-/// that cannot be written, and nothing else.
+/// `discovery_file` (loadgen/measure/tables/discovery_table.h), if there is one; throws OutputError
+/// if that cannot be written, and nothing else.
 void add_truth(RunRecord& record, const Experiment& experiment, const std::string& server_file,
                const std::string& bots_file, const std::filesystem::path& discovery_file = {});
 /// Adds figures from traces in memory, which should be `rounded` so that they equal those of files.

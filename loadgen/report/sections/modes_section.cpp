@@ -21,6 +21,7 @@ constexpr Subject subjects[] = {
     {"updates", 0, [](const RunRecord& run) { return run.traffic.updates; }},
     {"claims", 1, [](const RunRecord& run) { return run.traffic.claims; }},
     {"agreement", 1, [](const RunRecord& run) { return run.traffic.agreement; }},
+    {"standby", 1, [](const RunRecord& run) { return run.traffic.standby; }},
     {"interest", 2, [](const RunRecord& run) { return run.traffic.interest; }},
     {"keys", 2, [](const RunRecord& run) { return run.traffic.keys; }},
 };
@@ -35,13 +36,12 @@ constexpr Shown against_clients[] = {
      "Payload of the server's link, or of the busiest peer's, without headers, of which many small "
      "messages have more: as the next plot shows.",
      [](const RunRecord& run) { return run.nodes.busiest_bytes_per_s; }},
-    {"link-bytes", "A node's link with headers", "bytes per second, both ways",
-     "What one machine's link must carry, 66 bytes of headers for each segment included: the "
-     "server's, or that of a peer in the mean.",
-     [](const RunRecord& run) -> std::optional<double> {
-       if (!run.wire_bytes_per_client_per_s) return std::nullopt;
-       return *run.wire_bytes_per_client_per_s *
-              (run.cell.mode == peer_mode ? 1.0 : run.cell.clients);
+    {"link-bytes", "The busiest link with headers", "bytes per second, both ways",
+     "What one machine's link must carry, 66 bytes of headers for each segment and acknowledgement "
+     "included: the server's, or the busiest peer's; over sockets, a peer's in the mean.",
+     [](const RunRecord& run) {
+       return run.nodes.busiest_link_bytes_per_s ? run.nodes.busiest_link_bytes_per_s
+                                                 : run.wire_bytes_per_client_per_s;
      }},
     {"busiest-node-events", "Physics of the busiest node", "events per second",
      "What one machine must compute: the whole, or a part with the ghosts around it.",
@@ -94,7 +94,7 @@ void add_bars(SectionContent& content, const Findings& findings) {
             "Bodies' states, what proves windows, and control, stacked, for each client count.",
         .width = 380.0,
         .frame_height = 190.0,
-        .part_names = {"halo and updates", "claims and agreement", "interest and keys"}};
+        .part_names = {"halo and updates", "claims, agreement and standby", "interest and keys"}};
     for (const CellGroup& group : line.groups) {
       Bar bar{std::to_string(group.cell.clients), {0.0, 0.0, 0.0}, ""};
       auto row = cell_values(line, group);

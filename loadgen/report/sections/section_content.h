@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "loadgen/experiment/experiment.h"
-#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/equal_error.h"
 #include "loadgen/measure/statistics/histogram.h"
+#include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/report/plot_table.h"
 #include "loadgen/report/plots/chart.h"
 #include "loadgen/report/plots/picture.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/judge_run.h"
+#include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/measure/truth/truth.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_parts.h"

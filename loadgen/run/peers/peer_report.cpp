@@ -50,6 +50,7 @@ TrafficTotals operator-(TrafficTotals a, const TrafficTotals& b) {
   a.acknowledgements -= b.acknowledgements, a.kernel_segments -= b.kernel_segments;
   for (std::size_t k = 0; k < b.sent.size(); ++k)
     a.sent[k] -= b.sent[k], a.received[k] -= b.received[k], a.events[k] -= b.events[k];
+  for (std::size_t k = 0; k < b.link.size(); ++k) a.link[k] -= b.link[k];
   return a;
 }
 
@@ -125,6 +126,9 @@ Json peers_report(const Cell& cell, const PeerTotals& totals) {
       {game::report::total_bytes_received, totals.whole_received},
       {game::report::kernel_bytes_sent, or_null(totals.kernel_sent)},
       {game::report::kernel_bytes_received, or_null(totals.kernel_received)}};
+  if (!measured.link.empty())
+    report[game::report::busiest_link_bytes.key] =
+        *std::max_element(measured.link.begin(), measured.link.end());
   for (std::size_t k = 0; k < game::traffic_count; ++k)
     report[game::report::traffic_bytes[k].key] = measured.by_subject[k];
   return report;

@@ -21,7 +21,9 @@ struct TrafficTotals {
   std::uint64_t messages = 0, bytes = 0, writes = 0, segments = 0, acknowledgements = 0,
                 kernel_segments = 0;
   std::vector<std::uint64_t> sent, received;  ///< bytes by peer
-  std::vector<std::uint64_t> events;          ///< of physics, by peer
+  std::vector<std::uint64_t> link;            ///< by peer: sent and received with headers, those of
+                                    ///< acknowledgements too; empty if it was not counted by link
+  std::vector<std::uint64_t> events;  ///< of physics, by peer
 
   /// Adds the next peer's traffic.
   void add(const game::PeerNode& node, const rti::TransportCounters& counters);

@@ -14,6 +14,7 @@
 #include "game/net/relevant_kinds.h"
 #include "game/net/view.h"
 #include "im/basics/hexadecimal.h"
+#include "loadgen/measure/run_record.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/peers/peer_judgement.h"
 #include "loadgen/run/peers/peer_schedule.h"
@@ -41,6 +42,12 @@ class NetworkedStation : private rti::TransportListener {
   bool is_connected() const { return open_ + 1 == connections_.size(); }
   const std::string& error() const { return error_; }
   rti::TransportCounters totals() const { return end_.totals(); }
+  /// Bytes sent to another one, with the headers of segments and acknowledgements.
+  std::uint64_t link_bytes_to(peer::PeerNumber other) const {
+    const rti::TransportCounters sent = end_.counters(connections_[other]);
+    return sent.bytes_sent + static_cast<std::uint64_t>(segment_header_bytes) *
+                                 (sent.segments_sent + sent.acknowledgements_sent);
+  }
 
   void run_once() {
     if (end_.has_arrivals()) end_.poll({}, *this);
@@ -292,6 +299,13 @@ TrafficTotals PeerRun::traffic() const {
   TrafficTotals totals;
   for (std::size_t k = 0; k < stations_.size(); ++k)
     totals.add(stations_[k].node(), ends_[k].totals());
+  totals.link.assign(ends_.size(), 0);
+  for (peer::PeerNumber from = 0; from < ends_.size() && has_started_; ++from)
+    for (peer::PeerNumber to = 0; to < ends_.size(); ++to) {
+      if (to == from) continue;
+      const std::uint64_t bytes = ends_[from].link_bytes_to(to);
+      totals.link[from] += bytes, totals.link[to] += bytes;
+    }
   return totals;
 }
 

@@ -16,7 +16,8 @@ namespace rink::rti {
 
 namespace {
 
-constexpr int mail_tag = 1;
+/// MPI keeps messages of different tags in order too where any tag is received.
+constexpr int first_tag = 1;
 
 }  // namespace
 
@@ -26,7 +27,7 @@ struct Ranks::Requests {
     MPI_Request request = MPI_REQUEST_NULL;
   };
   struct Incoming {
-    std::vector<std::uint8_t> bytes;
+    RankMessage message;
     MPI_Request request = MPI_REQUEST_NULL;
     bool is_coming = false;
   };
@@ -45,7 +46,12 @@ Ranks::Ranks() : requests_(std::make_unique<Requests>()) {
   if (is_initialised)
     throw TransportError(TransportError::Kind::failed,
                          "MPI has been begun in this process already, and it cannot begin again");
-  MPI_Init(nullptr, nullptr);
+  int threads = MPI_THREAD_SINGLE;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threads);
+  if (threads < MPI_THREAD_SERIALIZED)
+    throw TransportError(TransportError::Kind::failed,
+                         "this MPI serves one thread of a process alone: expected one that lets "
+                         "several take turns (MPI_THREAD_SERIALIZED), as Open MPI does");
   int number = 0, count = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &number);
   MPI_Comm_size(MPI_COMM_WORLD, &count);
@@ -58,13 +64,13 @@ Ranks::~Ranks() {
   if (!requests_->is_finished) MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
 }
 
-void Ranks::send(std::uint32_t to, std::vector<std::uint8_t> bytes) {
-  assert(to < count_ && to != number_ && bytes.size() <= INT_MAX);
+void Ranks::send(std::uint32_t to, RankMessage message) {
+  assert(to < count_ && to != number_ && message.bytes.size() <= INT_MAX);
   unsent();
   Requests::Outgoing& outgoing = requests_->outgoing.emplace_back();
-  outgoing.bytes = std::move(bytes);
+  outgoing.bytes = std::move(message.bytes);
   MPI_Isend(outgoing.bytes.data(), static_cast<int>(outgoing.bytes.size()), MPI_BYTE,
-            static_cast<int>(to), mail_tag, MPI_COMM_WORLD, &outgoing.request);
+            static_cast<int>(to), first_tag + message.channel, MPI_COMM_WORLD, &outgoing.request);
 }
 
 /// From the oldest to the first that is still on its way: those behind it are seen later.
@@ -80,7 +86,7 @@ std::size_t Ranks::unsent() {
 
 /// A message is matched first, so that its length is known, then taken without waiting for the rest
 /// of it.
-std::optional<std::vector<std::uint8_t>> Ranks::receive(std::uint32_t from) {
+std::optional<RankMessage> Ranks::receive(std::uint32_t from) {
   assert(from < count_ && from != number_);
   unsent();
   Requests::Incoming& incoming = requests_->incoming[from];
@@ -88,19 +94,20 @@ std::optional<std::vector<std::uint8_t>> Ranks::receive(std::uint32_t from) {
     int is_there = 0;
     MPI_Message message = MPI_MESSAGE_NULL;
     MPI_Status status;
-    MPI_Improbe(static_cast<int>(from), mail_tag, MPI_COMM_WORLD, &is_there, &message, &status);
+    MPI_Improbe(static_cast<int>(from), MPI_ANY_TAG, MPI_COMM_WORLD, &is_there, &message, &status);
     if (!is_there) return std::nullopt;
     int size = 0;
     MPI_Get_count(&status, MPI_BYTE, &size);
-    incoming.bytes.resize(static_cast<std::size_t>(size));
-    MPI_Imrecv(incoming.bytes.data(), size, MPI_BYTE, &message, &incoming.request);
+    incoming.message.channel = static_cast<std::uint8_t>(status.MPI_TAG - first_tag);
+    incoming.message.bytes.resize(static_cast<std::size_t>(size));
+    MPI_Imrecv(incoming.message.bytes.data(), size, MPI_BYTE, &message, &incoming.request);
     incoming.is_coming = true;
   }
   int is_whole = 0;
   MPI_Test(&incoming.request, &is_whole, MPI_STATUS_IGNORE);
   if (!is_whole) return std::nullopt;
   incoming.is_coming = false;
-  return std::exchange(incoming.bytes, {});
+  return std::exchange(incoming.message, {});
 }
 
 void Ranks::begin_gathering(std::span<const std::uint8_t> own) {
@@ -119,6 +126,8 @@ std::optional<std::span<const std::uint8_t>> Ranks::gathered() {
   if (!is_done) return std::nullopt;
   return requests_->received;
 }
+
+bool Ranks::is_gathering() const { return requests_->gathering != MPI_REQUEST_NULL; }
 
 void Ranks::finish() {
   assert(requests_->outgoing.empty() && requests_->gathering == MPI_REQUEST_NULL);

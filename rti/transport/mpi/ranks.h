@@ -11,10 +11,16 @@
 
 namespace rink::rti {
 
-/// This process among the ranks of MPI_COMM_WORLD. One thread uses it, and there is one of it in a
-/// process, once: MPI cannot begin again. An error of MPI itself ends all ranks, with MPI's
-/// message. Only the constructor and `finish` wait, so that callers decide how long to wait and can
-/// handle interrupts meanwhile.
+/// A message between two ranks; all ranks mean the same by a channel.
+struct RankMessage {
+  std::uint8_t channel = 0;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// This process among the ranks of MPI_COMM_WORLD. One thread uses it at a time, and there is one
+/// of it in a process, once: MPI cannot begin again. An error of MPI itself ends all ranks, with
+/// MPI's message. Only the constructor and `finish` wait, so that callers decide how long to wait
+/// and can handle interrupts meanwhile. The thread that made it calls `finish`.
 class Ranks {
  public:
   /// True if this build has MPI, which it has if MPI was found when it was configured.
@@ -30,11 +36,11 @@ class Ranks {
   std::uint32_t number() const { return number_; }
   std::uint32_t count() const { return count_; }
 
-  /// Sends a message, which arrives whole, and in order between the same two ranks; below 2 GiB
-  /// (asserted).
-  void send(std::uint32_t to, std::vector<std::uint8_t> bytes);
+  /// Sends a message, which arrives whole, and in order between the same two ranks, whatever the
+  /// channels; below 2 GiB (asserted).
+  void send(std::uint32_t to, RankMessage message);
   /// The next message of `from`, if all of it has arrived.
-  std::optional<std::vector<std::uint8_t>> receive(std::uint32_t from);
+  std::optional<RankMessage> receive(std::uint32_t from);
 
   /// Begins a collective: all ranks contribute equally many bytes, one gathering at a time, in the
   /// same order (MPI_Iallgather).
@@ -42,6 +48,8 @@ class Ranks {
   /// The bytes of all ranks, in order of their numbers, once all have contributed; valid until the
   /// next gathering.
   std::optional<std::span<const std::uint8_t>> gathered();
+  /// True from the beginning of a gathering until its bytes were there.
+  bool is_gathering() const;
 
   /// Messages that are not yet on their way.
   std::size_t unsent();

@@ -16,10 +16,11 @@ Ranks::Ranks() {
                        "setup does), then configure and build again");
 }
 Ranks::~Ranks() = default;
-void Ranks::send(std::uint32_t, std::vector<std::uint8_t>) {}
-std::optional<std::vector<std::uint8_t>> Ranks::receive(std::uint32_t) { return std::nullopt; }
+void Ranks::send(std::uint32_t, RankMessage) {}
+std::optional<RankMessage> Ranks::receive(std::uint32_t) { return std::nullopt; }
 void Ranks::begin_gathering(std::span<const std::uint8_t>) {}
 std::optional<std::span<const std::uint8_t>> Ranks::gathered() { return std::nullopt; }
+bool Ranks::is_gathering() const { return false; }
 std::size_t Ranks::unsent() { return 0; }
 void Ranks::finish() {}
 void Ranks::abort(int status) { std::_Exit(status); }

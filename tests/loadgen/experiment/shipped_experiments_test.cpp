@@ -88,6 +88,7 @@ void ShippedExperiment::run_least_version_of(Experiment experiment) {
   experiment.population = Population::per_client;
   experiment.pucks = experiment.bats = {0};
   experiment.server_cores = {1};
+  experiment.nodes = {1.0};  // several do not play in virtual time
   experiment.design = Design::matrix;
   for (auto* list : {&experiment.view_fractions, &experiment.view_margins, &experiment.sweep_ticks,
                      &experiment.cell_sizes, &experiment.thresholds})

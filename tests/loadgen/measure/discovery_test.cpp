@@ -1,6 +1,6 @@
 // Delays of discovery as distribution functions: exact where they say something, bounded, and
 // censored where nothing came.
-#include "loadgen/measure/discovery_table.h"
+#include "loadgen/measure/tables/discovery_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -47,8 +47,8 @@ RunRecord measured(const Experiment& experiment, const Cell& cell) {
   run.truth.filter_precision = run.truth.delivered_precision = 0.5;
   run.truth.filter_recall = run.truth.delivered_recall = 0.9;
   run.truth.relevance = "a disc of < 3 m";
-  run.traffic = {size, size, size, size, size, size};
-  run.nodes = {size, size, size, size};
+  run.traffic = {size, size, size, size, size, size, {}};
+  run.nodes = {size, {}, size, {}, size, size};
   return run;
 }
 

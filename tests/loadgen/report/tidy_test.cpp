@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "loadgen/experiment/parameter.h"
-#include "loadgen/measure/discovery_table.h"
 #include "loadgen/measure/equal_error.h"
 #include "loadgen/measure/growth.h"
 #include "loadgen/measure/judge_run.h"
 #include "loadgen/measure/run_fields.h"
 #include "loadgen/measure/server_cores.h"
 #include "loadgen/measure/summary.h"
+#include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/report/dictionary.h"
 #include "loadgen/run/saturation/saturate_command.h"
 #include "tests/loadgen/report/canned_reports.h"
@@ -72,8 +72,8 @@ TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
   ASSERT_EQ(rows.size(), 1 + present);
   EXPECT_THAT(rows[0], ElementsAre("part", "mode", "scheme", "policy", "clients", "pucks", "bats",
                                    "server_cores", "view_fraction", "view_margin", "sweep_ticks",
-                                   "cell_size", "tick_rate_hz", "threshold", "extrapolate", "seed",
-                                   "valid", "figure", "unit", "value"));
+                                   "cell_size", "tick_rate_hz", "threshold", "extrapolate", "nodes",
+                                   "seed", "valid", "figure", "unit", "value"));
   std::size_t at = 1;
   for (const RunRecord& run : runs)
     for (const Figure& figure : figures()) {
@@ -84,10 +84,10 @@ TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
       EXPECT_THAT((std::vector(row.begin(), row.begin() + 4)),
                   ElementsAre("late", "client-server", run.cell.scheme, "periodic"));
       EXPECT_EQ(row[9], "0.25");
-      EXPECT_EQ(row[15], std::to_string(run.cell.seed));
-      EXPECT_EQ(row[16], run.valid ? "true" : "false");
-      EXPECT_EQ(row[17], figure.name);
-      EXPECT_EQ(std::stod(row[19]), *value) << figure.name << " must come back as the very number";
+      EXPECT_EQ(row[16], std::to_string(run.cell.seed));
+      EXPECT_EQ(row[17], run.valid ? "true" : "false");
+      EXPECT_EQ(row[18], figure.name);
+      EXPECT_EQ(std::stod(row[20]), *value) << figure.name << " must come back as the very number";
     }
 }
 
@@ -169,7 +169,9 @@ TEST(Dictionary, HasALineForEveryColumnAndEveryFigureOfTheLongTable) {
   for (auto column = rows[0].begin(); column != rows[0].end() - 3; ++column)
     EXPECT_EQ(lines[*column].at(1), "cell") << *column;
   for (const Figure& figure : figures()) EXPECT_EQ(lines[figure.name].at(1), "figure");
-  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_EQ(rows[i][18], lines[rows[i][17]].at(2));
+  const std::size_t figure = rows[0].size() - 3;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    EXPECT_EQ(rows[i][figure + 1], lines[rows[i][figure]].at(2));
 }
 
 /// (name, kind) of each line of the dictionary.

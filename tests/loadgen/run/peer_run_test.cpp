@@ -11,7 +11,7 @@
 
 #include "game/net/peer/traffic.h"
 #include "loadgen/experiment/experiment_file.h"
-#include "loadgen/measure/modes_table.h"
+#include "loadgen/measure/tables/modes_table.h"
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"
 #include "tests/loadgen/complaint.h"
@@ -121,7 +121,8 @@ TEST_F(PeerRunTest, EveryByteIsAboutSomethingAndOnlyWhoFiltersSaysWhereItLooks) 
       sum += report[std::string(subject) + "_bytes"].get<std::uint64_t>();
     EXPECT_EQ(sum, report["bytes_sent"]);
     EXPECT_NEAR(*record.traffic.halo + *record.traffic.claims + *record.traffic.agreement +
-                    *record.traffic.interest + *record.traffic.updates + *record.traffic.keys,
+                    *record.traffic.interest + *record.traffic.updates + *record.traffic.keys +
+                    *record.traffic.standby,
                 *record.up_bytes_per_client_per_s, 1e-6 * *record.up_bytes_per_client_per_s);
     by_scheme[cell.scheme] = report;
   }
@@ -131,7 +132,8 @@ TEST_F(PeerRunTest, EveryByteIsAboutSomethingAndOnlyWhoFiltersSaysWhereItLooks) 
   EXPECT_LT(by_scheme["grid"]["interest_bytes"], by_scheme["region"]["interest_bytes"]);
   EXPECT_LT(by_scheme["region"]["updates_bytes"], by_scheme["none"]["updates_bytes"]);
   // What proves the windows does not depend on who looks where.
-  for (const char* bytes : {"halo_bytes", "claims_bytes", "agreement_bytes", "keys_bytes"})
+  for (const char* bytes :
+       {"halo_bytes", "claims_bytes", "agreement_bytes", "keys_bytes", "standby_bytes"})
     EXPECT_EQ(by_scheme["none"][bytes], by_scheme["region"][bytes]);
 }
 
@@ -173,6 +175,15 @@ TEST_F(PeerRunTest, TheBusiestNodeCarriesWhatItSendsAndReceives) {
     if (peers == 2) EXPECT_NEAR(*record.nodes.busiest_bytes_per_s, all, 1e-9 * all);
     else EXPECT_GT(*record.nodes.busiest_bytes_per_s, 2.0 * all / peers);
     EXPECT_LE(*record.nodes.busiest_bytes_per_s, all);
+    EXPECT_GT(*record.nodes.busiest_link_bytes_per_s, *record.nodes.busiest_bytes_per_s);
+    EXPECT_GE(*record.nodes.busiest_link_bytes_per_s,
+              *record.wire_bytes_per_client_per_s * (1.0 - 1e-9))
+        << "the mean link";
+    if (peers == 2) {
+      EXPECT_NEAR(*record.nodes.busiest_link_bytes_per_s, *record.wire_bytes_per_client_per_s,
+                  1e-9 * all)
+          << "both have the same link";
+    }
     EXPECT_FALSE(record.nodes.busiest_cpu_s || record.nodes.mean_cpu_s) << "under a virtual clock";
     EXPECT_EQ(record.ticks, 40u);
   }
@@ -191,7 +202,9 @@ TEST_F(PeerRunTest, ModesStandSideBySideOnlyWhereThereAreSeveral) {
   const std::string table = modes_table(runs);
   EXPECT_THAT(table, testing::AllOf(HasSubstr("client-server"), HasSubstr("peer-to-peer"),
                                     HasSubstr("claims")));
-  EXPECT_THAT(table, testing::Not(HasSubstr("+- n="))) << "one replication has no interval";
+  EXPECT_THAT(table,
+              testing::Not(testing::AnyOf(HasSubstr("+- n="), HasSubstr("busiest link carr"))))
+      << "one replication has no interval";
   std::vector<RunRecord> replicated = runs;
   replicated.insert(replicated.end(), runs.begin(), runs.end());
   replicated[2].cell.seed = replicated[3].cell.seed = 4;
@@ -201,6 +214,15 @@ TEST_F(PeerRunTest, ModesStandSideBySideOnlyWhereThereAreSeveral) {
   std::snprintf(shown, sizeof shown, "%.1f", half_kB);
   EXPECT_THAT(modes_table(replicated),
               testing::AllOf(HasSubstr("+- n=2"), HasSubstr(std::string("   ") + shown)));
+  EXPECT_EQ(replicated[1].cell.mode, peer_mode);
+  replicated[1].nodes.busiest_link_bytes_per_s = replicated[3].nodes.busiest_link_bytes_per_s = 1.0;
+  EXPECT_THAT(modes_table(replicated),
+              HasSubstr("the busiest link carries less in mode peer-to-peer with clients: " +
+                        std::to_string(replicated[1].cell.clients) + " under region\n"));
+  replicated[0].nodes.busiest_link_bytes_per_s = 0.0;
+  replicated[2].nodes.busiest_link_bytes_per_s = 2.0;
+  EXPECT_THAT(modes_table(replicated),
+              HasSubstr("the modes' intervals for the busiest link overlap"));
   runs.pop_back();
   EXPECT_EQ(modes_table(runs), "");
 }

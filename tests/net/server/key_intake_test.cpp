@@ -52,6 +52,21 @@ TEST(KeyIntake, AcknowledgesKeysThatAreNotFeltOrOverTheLimit) {
   EXPECT_EQ(keys.felt()[0], 4u);
 }
 
+TEST(KeyIntake, OfASharedGameAcknowledgesKeysOverTheLimitInTheirTurn) {
+  KeyIntake keys(2, 2.0);
+  for (int key = 0; key < 4; ++key) keys.accept(0, true, bytes("a"), {});
+  EXPECT_FALSE(keys.accept(1, true, bytes("a"), {.is_felt = false}));
+  keys.feel_unsubmitted();
+  EXPECT_EQ(keys.felt()[0], 0u) << "two that were submitted come before those over the limit";
+  EXPECT_EQ(keys.felt()[1], 1u);
+  keys.feel_next(0), keys.feel_unsubmitted();
+  EXPECT_EQ(keys.felt()[0], 1u);
+  keys.feel_next(0), keys.feel_unsubmitted();
+  EXPECT_EQ(keys.felt()[0], 4u);
+  keys.feel_next(0);
+  EXPECT_EQ(keys.felt()[0], 4u) << "of a player before";
+}
+
 TEST(KeyIntake, StampsAMatchsKeyForTheWantedInstantOnTheGrid) {
   KeyIntake keys(1, 0.0);
   const auto time = [&](double now, double wanted) {

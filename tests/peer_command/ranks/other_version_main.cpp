@@ -2,7 +2,7 @@
 #include <chrono>
 #include <thread>
 
-#include "game/net/peer/network/rank_mail.h"
+#include "game/net/peer/ranks/rank_network.h"
 
 int main() {
   rink::rti::Ranks ranks;

@@ -30,7 +30,7 @@ struct LooseBodies {
       : spec(of),
         bodies(spec, record.counters(), ledger, observers),
         history(spec, bodies, observers),
-        jams(bodies, history) {}
+        jams(bodies, history, observers) {}
 
   std::uint32_t add(BodyState state) {
     state.inverse_mass = state.kind == BodyKind::post ? 0.0 : 1.0 / state.mass;

@@ -2,6 +2,7 @@
 // overlaps, and all is free again when the key is released.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/physics/contact/contact_bounds.h"
@@ -99,6 +100,44 @@ TEST_P(Pressed, PucksSideBySideIntoAWall) {
   EXPECT_TRUE(comes_to_rest(world_, watch, bat, {-6, 0}) || GetParam() == 1.0);
 }
 
+class PressedDiagonally : public testing::TestWithParam<double> {};
+
+TEST_P(PressedDiagonally, PuckInACornerHasFewEvents) {
+  for (const double drag : {0.0, 1.0})
+    for (const double half : {0.05, 0.2, 0.3})
+      for (const double start : {0.04, 0.1, 0.3}) {
+        SCOPED_TRACE(testing::Message() << drag << ' ' << half << ' ' << start);
+        World world(rink_of(2, 1, GetParam(), 0.2 * drag, drag));
+        const double across = std::min(0.95 - half, std::max(half + 0.1, 0.4));
+        const BodyId bat = world.add(thin_bat_at(0.4, across, half, 3.0));
+        if (!world.is_free({start, start}, 0.04)) continue;
+        world.add(light_puck_at(start, start));
+        world.set_thrust(bat, {-6, -6});
+        world.advance(20.0);
+        EXPECT_LT(world.counters().events(), 2000u);
+        EXPECT_LT(world.max_overlap(), 1e-9);
+      }
+}
+
+/// In equilibrium on the diagonal: a glide that opened contacts wider than a cluster's gaps would
+/// end in flight, and the bat come back too fast to stop, for ever.
+TEST_P(PressedDiagonally, SquareBatOnTheDiagonalComesToRestOnAPuck) {
+  for (const double half : {0.05, 0.1, 0.2})
+    for (const double start : {0.04, 0.06, 0.1})
+      for (const double mass : {1.0, 3.0, 5.0})
+        for (const double thrust : {6.0, 20.0}) {
+          SCOPED_TRACE(testing::Message() << half << ' ' << start << ' ' << mass << ' ' << thrust);
+          World world(rink_of(2, 1, GetParam()));
+          const BodyId bat =
+              world.add(BatSpec{.position = {0.4, 0.4}, .half_extent = {half, half}, .mass = mass});
+          world.add(light_puck_at(start, start, 0.5));
+          world.set_thrust(bat, {-thrust, -thrust});
+          world.advance(20.0);
+          EXPECT_LT(world.counters().events(), 1000u);
+          EXPECT_LT(world.max_overlap(), 1e-9);
+        }
+}
+
 TEST_P(Pressed, PuckIntoACorner) {
   for (const double start : {0.1, 0.15, 0.2}) {
     World world(rink_of(4, 2, GetParam(), 0.2, 1.0));
@@ -193,10 +232,13 @@ TEST_P(Pressed, WholeRackIntoACorner) {
   watch.run(10.0);
 }
 
+const auto of_restitution = [](const auto& restitution) {
+  return "of_" + rink::test::words(restitution.param);
+};
 INSTANTIATE_TEST_SUITE_P(Restitution, Pressed, testing::Values(0.0, 0.1, 0.5, 0.9, 1.0),
-                         [](const auto& restitution) {
-                           return "of_" + rink::test::words(restitution.param);
-                         });
+                         of_restitution);
+INSTANTIATE_TEST_SUITE_P(Restitution, PressedDiagonally, testing::Values(0.0, 0.5, 0.9),
+                         of_restitution);
 
 }  // namespace
 }  // namespace rink::physics::test

@@ -58,7 +58,8 @@ TEST(GlideSolver, PushesOnlyWhereContactsWouldCloseAndMakesNoMomentum) {
   SCOPED_TRACE(testing::Message() << "seed " << seed);
   std::mt19937_64 random(seed);
   SeparationSolver separation;
-  GlideSolver solver;
+  InteriorPoint interior;
+  GlideSolver solver(interior);
   int solved = 0;
   for (int trial = 0; trial < 300; ++trial) {
     ContactProblem problem = random_problem(random, trial % 2 == 0 ? 10.0 : 1e4, 1.0);
@@ -83,7 +84,8 @@ TEST(GlideSolver, BearsWhatIsInEquilibrium) {
   problem.touches.push_back({0, fixed_place, {1.0, 0.0}, 0.5});
   problem.touches.push_back({0, 1, {-1.0, 0.0}, 0.5});
   problem.touches[0].reach = 0.14;
-  GlideSolver solver;
+  InteriorPoint interior;
+  GlideSolver solver(interior);
   const std::vector<Drive> drives{{{0.0, 0.0}, 0.0}, {{-6.0, 0.0}, 0.0}};
   ASSERT_TRUE(solver.solve(problem, drives, {8e-3, 0.0}));
   for (const Touch& force : solver.forces()) EXPECT_NEAR(force.impulse, 18.0, 1e-11);
@@ -105,7 +107,8 @@ TEST(GlideSolver, KeepsABodyAtItsReachFromWhatItGoesRound) {
         add_body(problem, 0.5, {opening, speed});
         problem.touches.push_back({0, fixed_place, {1.0, 0.0}, 0.5});
         problem.touches[0].reach = reach;
-        GlideSolver solver;
+        InteriorPoint interior;
+        GlideSolver solver(interior);
         ASSERT_TRUE(
             solver.solve(problem, std::vector<Drive>{{{-6.0, 6.0}, drag}}, {duration, opening}));
         Motion motion;

@@ -51,6 +51,65 @@ TEST(SeparationSolver, GainsNoMoreEnergyThanItMay) {
   }
 }
 
+/// Two pucks that lean on a side wall, and one behind them that runs into both, on their way along
+/// it: what parting takes is paid from the motion against each other, for nothing holds them back
+/// along the wall.
+TEST(SeparationSolver, KeepsTheMomentumAlongAWallThatAClusterLeansOn) {
+  for (const double along : {0.0, 1.0, -30.0}) {
+    SCOPED_TRACE(along);
+    ContactProblem problem;
+    for (const double x : {-0.01, 0.01}) add_body(problem, 1.0, {along + x, 0.0});
+    add_body(problem, 3.0, {along, -0.02});
+    add_touch(problem, 0, 2, 4.0), add_touch(problem, 1, 2, 5.5);
+    for (const std::uint32_t body : {0u, 1u})
+      problem.touches.push_back({body, fixed_place, {0.0, 1.0}, 0.5});
+    const Vector2 before = momentum_of(problem);
+    const double energy = problem.energy();
+    SeparationSolver solver;
+    EXPECT_EQ(solver.part(problem, 1e-2, 0.0), 0.0);  // paid for
+    EXPECT_NEAR(momentum_of(problem).x(), before.x(), 1e-15 * std::abs(before.x()) + 1e-16);
+    EXPECT_LE(problem.energy(), energy * (1.0 + 1e-15));
+    EXPECT_GT(slowest_parting(problem), 1e-4);
+  }
+}
+
+/// Momentum before, and what walls push, is momentum after: none is made along a wall, and no wall
+/// pulls, whatever the energy that parting may cost.
+TEST(SeparationSolver, ChangesMomentumOnlyAsFarAsWallsPush) {
+  constexpr std::uint64_t seed = 5;
+  SCOPED_TRACE(testing::Message() << "seed " << seed);
+  std::mt19937_64 random(seed);
+  SeparationSolver solver;
+  int sliding = 0, paying = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    SCOPED_TRACE(testing::Message() << "trial " << trial);
+    ContactProblem problem = random_problem(random, 10.0, 1.0);
+    const Vector2 drift(uniform(random, -3.0, 3.0), uniform(random, -3.0, 3.0));
+    for (Vector2& velocity : problem.velocities) velocity += drift;
+    bool leans[] = {false, false};  // on the wall on the left, and below
+    for (Touch& touch : problem.touches) {
+      if (touch.other != fixed_place) continue;
+      const auto axis = static_cast<int>(trial % 3 < 2 ? trial % 2 : random() % 2);
+      touch.normal = Vector2::Unit(axis), leans[axis] = true;
+    }
+    const Vector2 before = momentum_of(problem);
+    const double energy = problem.energy(), gain_max = trial % 2 == 0 ? 0.0 : 1e-3 * energy,
+                 rounding = 1e-9 * std::sqrt(energy);
+    paying += solver.part(problem, 0.1, gain_max) >= gain_max - 1e-12 * energy ? 1 : 0;
+    sliding += leans[0] != leans[1] ? 1 : 0;
+    const Vector2 pushed = momentum_of(problem) - before;
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_GE(pushed[axis], -rounding);
+      if (!leans[axis]) {
+        EXPECT_LE(pushed[axis], rounding);
+      }
+    }
+    EXPECT_LE(problem.energy(), (energy + gain_max) * (1.0 + 1e-12));
+  }
+  EXPECT_GT(sliding, 100);
+  EXPECT_GT(paying, 50);
+}
+
 /// Who is held from opposite sides parts from neither, and has the same velocity to the bit.
 TEST(SeparationSolver, HoldsWhatIsBetweenTwoWallsStill) {
   ContactProblem problem = row_of({1.0, 1.0}, 0.1);

@@ -53,6 +53,20 @@ TEST_P(NextEventsOfEither, ComeWhenTheImpactOrTheCrossingDoesWhicheverIsEarlier)
   EXPECT_EQ(events[1].partner, partner::none);
 }
 
+TEST_P(NextEventsOfEither, AreTheSameInAnotherQueue) {
+  add(3);
+  put(events, 0, impact_at(2.0, partner::wall_top));
+  put(events, 1, impact_at(1.0, 2));
+  for (const QueuePolicy policy : {QueuePolicy::windows, QueuePolicy::calendar, GetParam()}) {
+    events.keep_by(policy);
+    EXPECT_EQ(events.first(far_off), 1u);
+    EXPECT_EQ(events.time(0), 2.0);
+    EXPECT_EQ(events.time(2), no_time);
+  }
+  events.drop(1);
+  EXPECT_EQ(events.first(far_off), 0u);
+}
+
 /// Two worlds that number bodies alike process events of one instant in the same order, however
 /// they came to be: that of the pairs, the lower number first.
 TEST_P(NextEventsOfEither, ComeInTheOrderOfThePairsAtOneInstant) {

@@ -17,12 +17,17 @@ struct Crowd {
   CellGrid grid;
   std::vector<double> x, y;
 
-  Crowd(std::mt19937_64& random, std::uint32_t count, double length, double width, double reach) {
-    grid.rebuild(length, width, reach, count, 0.0);
+  Crowd(std::mt19937_64& random, std::uint32_t count, double length, double width, double reach)
+      : Crowd(random, count, {0.0, 0.0, length, width}, reach, 0.0) {}
+  /// Bodies lie up to `beyond` outside the ground.
+  Crowd(std::mt19937_64& random, std::uint32_t count, const CellGrid::Ground& ground, double reach,
+        double beyond) {
+    grid.rebuild(ground, reach, count, 0.0);
     grid.resize(count);
+    const auto& [low_x, low_y, length, width] = ground;
     for (std::uint32_t body = 0; body < count; ++body) {
-      x.push_back(test::uniform(random, 0.0, length));
-      y.push_back(test::uniform(random, 0.0, width));
+      x.push_back(test::uniform(random, low_x - beyond, low_x + length + beyond));
+      y.push_back(test::uniform(random, low_y - beyond, low_y + width + beyond));
       grid.insert(body, x[body], y[body]);
     }
   }
@@ -34,20 +39,38 @@ struct Crowd {
   }
 };
 
+void expect_all_within(const Crowd& crowd, double reach) {
+  const auto count = static_cast<std::uint32_t>(crowd.x.size());
+  for (std::uint32_t body = 0; body < count; ++body) {
+    const std::vector<std::uint32_t> near = crowd.near(body);
+    EXPECT_EQ(std::adjacent_find(near.begin(), near.end()), near.end());
+    for (std::uint32_t other = 0; other < count; ++other) {
+      if (std::max(std::abs(crowd.x[other] - crowd.x[body]),
+                   std::abs(crowd.y[other] - crowd.y[body])) > reach)
+        continue;
+      EXPECT_TRUE(std::binary_search(near.begin(), near.end(), other))
+          << body << " and " << other << ", reach " << reach;
+    }
+  }
+}
+
 TEST(CellGrid, ListsOnceEverybodyWithinReach) {
   std::mt19937_64 random(1);
-  for (const double reach : {0.01, 0.08, 0.7, 5.0}) {
-    const Crowd crowd(random, 400, 3.0, 1.0, reach);
+  for (const double reach : {0.01, 0.08, 0.7, 5.0})
+    expect_all_within({random, 400, 3.0, 1.0, reach}, reach);
+}
+
+TEST(CellGrid, ListsThemBeyondItsGroundAndWhereThatIsLeft) {
+  std::mt19937_64 random(4);
+  for (const double reach : {0.01, 0.08, 0.7}) {
+    const Crowd crowd(random, 400, {50.0, 20.0, 3.0, 1.0}, reach, 0.5);
+    expect_all_within(crowd, reach);
     for (std::uint32_t body = 0; body < 400; ++body) {
-      const std::vector<std::uint32_t> near = crowd.near(body);
-      EXPECT_EQ(std::adjacent_find(near.begin(), near.end()), near.end());
-      for (std::uint32_t other = 0; other < 400; ++other) {
-        if (std::max(std::abs(crowd.x[other] - crowd.x[body]),
-                     std::abs(crowd.y[other] - crowd.y[body])) > reach)
-          continue;
-        EXPECT_TRUE(std::binary_search(near.begin(), near.end(), other))
-            << body << " and " << other << ", reach " << reach;
-      }
+      const CellGrid::Place place = crowd.grid.place(body);
+      EXPECT_LE(crowd.grid.column_edge(place.column, false), crowd.x[body]);
+      EXPECT_GE(crowd.grid.column_edge(place.column, true), crowd.x[body]);
+      EXPECT_LE(crowd.grid.row_edge(place.row, false), crowd.y[body]);
+      EXPECT_GE(crowd.grid.row_edge(place.row, true), crowd.y[body]);
     }
   }
 }

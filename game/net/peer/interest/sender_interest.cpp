@@ -125,7 +125,7 @@ void SenderInterest::look_away(peer::PeerNumber player) {
 void SenderInterest::match(const peer::Peer& peer) {
   std::vector<std::uint32_t> here = peer.owned();
   here.insert(here.end(), peer.ghosts().begin(), peer.ghosts().end());
-  const physics::World& world = peer.world();
+  const physics::PartWorld& world = peer.world();
   for (const std::uint32_t body : peer.owned())
     filter_->set_update_region(body,
                                bounding_box(world.position({body}), world.half_extent({body})));
@@ -165,7 +165,7 @@ void SenderInterest::match(const peer::Peer& peer) {
 
 /// Decides once a window for each body in any player's scope, as a server's policy does, but
 /// without work for others.
-const SenderInterest::LastSent& SenderInterest::last_sent_of(const physics::World& world,
+const SenderInterest::LastSent& SenderInterest::last_sent_of(const physics::PartWorld& world,
                                                              std::uint32_t body,
                                                              std::uint32_t window) {
   LastSent& last_sent = last_sent_[body];
@@ -175,11 +175,13 @@ const SenderInterest::LastSent& SenderInterest::last_sent_of(const physics::Worl
                       last_sent.window + 1 != window;  // others may have sent it meanwhile
   last_sent.window = window;
   if (sends_trajectories_) {
-    if (!is_new) last_sent.until_s = holds_until(world, {body}, last_sent.trajectory);
+    const physics::World& here = world.inside();
+    const physics::BodyId id = world.inside({body});
+    if (!is_new) last_sent.until_s = holds_until(here, id, last_sent.trajectory);
     last_sent.is_due = is_new || last_sent.until_s < world.now() + worthwhile_s;
     if (last_sent.is_due)
-      last_sent.trajectory = trajectory_of(world, {body}),
-      last_sent.until_s = holds_until(world, {body}, last_sent.trajectory);
+      last_sent.trajectory = trajectory_of(here, id),
+      last_sent.until_s = holds_until(here, id, last_sent.trajectory);
     std::vector<std::byte> value;
     encode(value, last_sent.trajectory);
     last_sent.coded.clear();
@@ -207,7 +209,7 @@ std::vector<std::byte> SenderInterest::updates_for(
   std::vector<std::uint32_t> now_sent;
   std::vector<std::uint32_t>& sent = sent_[player];
   const std::vector<std::uint32_t>& scope = scopes_[player];
-  const physics::World& world = peer.world();
+  const physics::PartWorld& world = peer.world();
   for (const std::uint32_t body : peer.owned()) {
     const std::optional<std::uint32_t> newly_felt = felt(body);
     const bool is_told = contains(scope, body) && !peer.share().will_have(player, body);

@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "game/net/peer/interest/scheme_reach.h"
 #include "game/peer/peer.h"
+#include "game/replication/scheme_reach.h"
 #include "game/replication/trajectory.h"
 #include "im/filter.h"
 #include "rti/wire/bytes.h"
@@ -88,7 +88,7 @@ class SenderInterest {
     bool is_due = false;
     std::vector<std::byte> coded;
   };
-  const LastSent& last_sent_of(const physics::World& world, std::uint32_t body,
+  const LastSent& last_sent_of(const physics::PartWorld& world, std::uint32_t body,
                                std::uint32_t window);
 
   std::unique_ptr<im::Filter> filter_;

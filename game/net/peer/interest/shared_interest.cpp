@@ -298,6 +298,7 @@ bool SharedInterest::receive(peer::PeerNumber from, Traffic about, rti::Bytes co
     case Traffic::halo:
     case Traffic::claims:
     case Traffic::agreement:
+    case Traffic::standby:
       return false;
     case Traffic::keys:
       return receive_keys(content);
@@ -330,7 +331,7 @@ void SharedInterest::list_scope(std::vector<std::uint32_t>& bodies) const {
 
 physics::Motion SharedInterest::motion_of(std::uint32_t body) const {
   if (places_[body] == Place::away) return replicas_.replica(body).motion;
-  const physics::World& world = peer_.world();
+  const physics::PartWorld& world = peer_.world();
   if (!world.is_resting({body})) return world.motion({body});
   physics::Motion still;
   still.time = world.now();
@@ -340,7 +341,7 @@ physics::Motion SharedInterest::motion_of(std::uint32_t body) const {
 
 physics::Vector2 SharedInterest::position_at(std::uint32_t body, double instant) const {
   if (places_[body] == Place::away) return replicas_.replica(body).position_at(instant);
-  const physics::World& world = peer_.world();
+  const physics::PartWorld& world = peer_.world();
   if (instant <= world.now()) return world.position({body});
   const physics::Motion motion = motion_of(body);
   return motion.at(std::max(instant, motion.time)).position;

@@ -24,4 +24,9 @@ std::string other_version(std::uint32_t theirs) {
          " of the peers' protocol, here it is version " + std::to_string(peer_protocol_version);
 }
 
+std::string too_few_bats(std::uint32_t wanted, std::uint32_t all, std::uint32_t free) {
+  return "it wants to play " + std::to_string(wanted) + " bats, of " + std::to_string(all) +
+         " here " + std::to_string(free) + " are free";
+}
+
 }  // namespace rink::game

@@ -4,13 +4,14 @@
 
 #include <cassert>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "game/net/peer/network/greetings.h"
 #include "rti/wire/frame.h"
+#include "rti/wire/stream.h"
 
 namespace rink::game {
 
@@ -25,22 +26,25 @@ struct Frame {
   std::vector<std::uint8_t> content;
 };
 
-inline std::vector<std::uint8_t> framed(FrameKind kind, std::span<const std::uint8_t> content) {
+inline std::vector<std::byte> framed(FrameKind kind, std::span<const std::uint8_t> content) {
   assert(kind <= frame_kind_max && content.size() < peer_frame_max);
-  std::vector<std::uint8_t> bytes(frame_head + content.size());
-  const auto length = static_cast<std::uint32_t>(content.size() + 1);
-  std::memcpy(bytes.data(), &length, rti::frame_header_size);
-  bytes[rti::frame_header_size] = static_cast<std::uint8_t>(kind);
-  if (!content.empty()) std::memcpy(bytes.data() + frame_head, content.data(), content.size());
-  return bytes;
+  rti::FrameWriter writer(peer_frame_max);
+  writer.buffer().reserve(frame_head + content.size());
+  std::vector<std::byte>& bytes = writer.begin_message(1 + content.size());
+  rti::Writer stream(bytes);
+  rti::Bytes view = std::as_bytes(content);
+  stream.number(kind), stream.rest(view, view.size());
+  writer.appended();
+  return std::move(bytes);
 }
 
 /// Nothing if the payload is of no kind that there is. It is not empty.
 inline std::optional<Frame> frame_of(rti::Bytes payload) {
-  assert(!payload.empty());
-  if (payload[0] > static_cast<std::byte>(frame_kind_max)) return std::nullopt;
-  Frame frame{static_cast<FrameKind>(payload[0]), std::vector<std::uint8_t>(payload.size() - 1)};
-  if (payload.size() > 1) std::memcpy(frame.content.data(), &payload[1], payload.size() - 1);
+  Frame frame;
+  rti::Reader stream(payload);
+  if (!stream.choice(frame.kind, frame_kind_max)) return std::nullopt;
+  const auto* const content = reinterpret_cast<const std::uint8_t*>(stream.rest().data());
+  frame.content.assign(content, content + stream.left());
   return frame;
 }
 
@@ -48,29 +52,43 @@ inline std::optional<Frame> frame_of(rti::Bytes payload) {
 /// knows who sends them. What has come waits here.
 class FrameQueue {
  public:
+  /// The bytes are not copied as long as all before them has been taken: call `keep` before they
+  /// end.
   void add(rti::Bytes bytes) {
+    keep();
+    if (is_broken_) return;
+    if (waiting_.empty()) fresh_ = bytes;
+    else waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+  }
+  /// Copies what was added last and not taken.
+  void keep() {
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(begin_));
-    begin_ = 0;
-    waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+    waiting_.insert(waiting_.end(), fresh_.begin(), fresh_.end());
+    fresh_ = {}, begin_ = 0;
   }
   /// The next whole frame of at most `length_max` bytes; nothing if there is none yet, or none ever
   /// because of `is_broken`.
   std::optional<Frame> next(std::uint32_t length_max) {
     if (is_broken_) return std::nullopt;
-    rti::Bytes rest = rti::Bytes(waiting_).subspan(begin_), payload;
+    rti::Bytes rest = waiting_.empty() ? fresh_ : rti::Bytes(waiting_).subspan(begin_), payload;
+    const std::size_t before = rest.size();
     is_broken_ = reader_.next(rest, length_max, payload) != rti::Framing::sound;
-    begin_ = waiting_.size() - rest.size();
-    if (is_broken_ || payload.empty()) return std::nullopt;
-    std::optional<Frame> frame = frame_of(payload);
-    is_broken_ = !frame;
+    if (waiting_.empty()) fresh_ = rest;
+    else begin_ += before - rest.size();
+    std::optional<Frame> frame;
+    if (!is_broken_ && !payload.empty()) is_broken_ = !(frame = frame_of(payload));
+    if (is_broken_) waiting_.clear(), fresh_ = {}, begin_ = 0;
     return frame;
   }
   bool is_broken() const { return is_broken_; }
+  /// What was added and not taken, but for the beginning of a frame [bytes].
+  std::size_t waiting_bytes() const { return waiting_.size() - begin_ + fresh_.size(); }
 
  private:
   rti::FrameReader reader_;
   std::vector<std::byte> waiting_;
   std::size_t begin_ = 0;  ///< of what `reader_` has not seen
+  rti::Bytes fresh_;       ///< added last, where nothing waits before it
   bool is_broken_ = false;
 };
 

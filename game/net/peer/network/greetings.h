@@ -16,8 +16,10 @@
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 7;
+inline constexpr std::uint32_t peer_protocol_version = 9;
 inline constexpr std::uint32_t peers_max = 64;
+/// The period [windows] in which zones shift toward equal load, unless a user sets another.
+inline constexpr std::uint32_t balance_windows_default = 25;
 
 /// The first byte of every frame.
 enum class FrameKind : std::uint8_t {
@@ -144,10 +146,7 @@ struct Farewell {
 
 template <class Stream>
 bool exchange(Stream& stream, std::string& text) {
-  if (!stream.size(text)) return false;
-  for (char& character : text)
-    if (!stream.number(character)) return false;
-  return true;
+  return stream.number_list(text);
 }
 
 template <class Stream>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace rink::game {
 
@@ -20,14 +21,14 @@ bool is_here(const PeerLink& link) {
 PeerConversation::PeerConversation(PeerLinks& links, const PeerRoster& roster, PeerLosses& losses)
     : links_(links), roster_(roster), losses_(losses) {}
 
-bool PeerConversation::handle(rti::ConnectionId connection, PeerLink& link, const Frame& frame) {
+bool PeerConversation::handle(rti::ConnectionId connection, PeerLink& link, Frame frame) {
   assert(link.role == LinkRole::peer);
   switch (frame.kind) {
     case FrameKind::mail:
-      link.inbox.push_back(frame.content);
+      link.inbox.push_back(std::move(frame.content));
       return !link.is_done;
     case FrameKind::aside:
-      return take_aside(link, frame);
+      return take_aside(link, std::move(frame));
     case FrameKind::sign:
       return frame.content.empty();
     case FrameKind::farewell:
@@ -41,9 +42,9 @@ bool PeerConversation::handle(rti::ConnectionId connection, PeerLink& link, cons
 
 /// Without interest beyond the peers' parts there are no side messages; with it no sender is
 /// further ahead of its receivers than a window.
-bool PeerConversation::take_aside(PeerLink& link, const Frame& frame) {
+bool PeerConversation::take_aside(const PeerLink& link, Frame frame) {
   if (!roster_.terms().interest.is_wanted() || deferred_.size() >= deferred_max) return false;
-  deferred_.emplace_back(link.number, frame.content);
+  deferred_.emplace_back(link.number, std::move(frame.content));
   return !link.is_done;
 }
 
@@ -110,10 +111,10 @@ bool PeerConversation::may_still_come(peer::PeerNumber from, const Patience& pat
 
 void PeerConversation::deliver_deferred(const SideListener& listener) {
   while (listener && !deferred_.empty()) {
-    const auto [from, bytes] = std::move(deferred_.front());
+    auto [from, bytes] = std::move(deferred_.front());
     deferred_.pop_front();
     PeerLink* const link = links_.at(from);
-    if (!link || link->is_parted || listener(from, bytes)) continue;
+    if (!link || link->is_parted || listener(from, std::move(bytes))) continue;
     losses_.lose(*link, ExitStatus::failed,
                  name_of(*link) + " sent a side message that no peer sends");
   }

@@ -24,7 +24,7 @@ class PeerConversation {
   PeerConversation(PeerLinks& links, const PeerRoster& roster, PeerLosses& losses);
 
   /// A frame of a peer. False for one that no peer would send.
-  bool handle(rti::ConnectionId connection, PeerLink& link, const Frame& frame);
+  bool handle(rti::ConnectionId connection, PeerLink& link, Frame frame);
 
   /// A peer that is expected and has not connected yet gets it then; others that are not connected
   /// never do.
@@ -51,7 +51,7 @@ class PeerConversation {
   bool awaits_farewell() const;
 
  private:
-  bool take_aside(PeerLink& link, const Frame& frame);
+  bool take_aside(const PeerLink& link, Frame frame);
   bool take_farewell(rti::ConnectionId connection, PeerLink& link, const Frame& frame);
   bool be_sent_away(const PeerLink& link, const Frame& frame);
 

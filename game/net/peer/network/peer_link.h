@@ -28,7 +28,7 @@ struct PeerLink {
   bool is_open = false, is_closed = false;
   double since_s = 0.0, received_s = 0.0, sent_s = 0.0;
   FrameQueue frames;
-  std::deque<std::vector<std::uint8_t>> outbox;
+  std::deque<std::vector<std::byte>> outbox;
   std::size_t out_begin = 0;  ///< bytes sent of the first message in the outbox
 
   // Of who asks for admission, kept by PeerAdmission.

@@ -10,6 +10,10 @@ namespace rink::game {
 namespace {
 
 constexpr std::size_t strangers_max = 64;
+/// Limit of what waits of a connection until it is known as a peer's [bytes]: whose greeting came
+/// early may play already, and sends its first window's messages, in which a hundred thousand
+/// bodies fit.
+constexpr std::size_t early_max = 4 * 1024 * 1024;
 /// Limit of the wait for a connection's first message.
 constexpr double stranger_patience_s = 5.0;
 /// Transports close a connection whose queue gets longer than a megabyte; bytes beyond half of that
@@ -46,6 +50,11 @@ bool PeerLinks::are_open(peer::PeerNumber count, peer::PeerNumber own) const {
   return true;
 }
 
+rti::TransportCounters PeerLinks::counters_of(peer::PeerNumber number) const {
+  if (number >= peers_.size() || !peers_[number]) return {};
+  return sockets_.get().counters(*peers_[number]);
+}
+
 rti::ConnectionId PeerLinks::dial(const PeerInfo& info, LinkRole role) {
   assert((role == LinkRole::asked || role == LinkRole::peer) && info.place.port != 0);
   const rti::ConnectionId connection = sockets_.connect(info.place.address, info.place.port);
@@ -70,6 +79,7 @@ void PeerLinks::add(rti::ConnectionId connection, rti::Bytes bytes) {
   if (!link || link->is_closed) return;
   link->frames.add(bytes);
   link->received_s = now_s_();
+  if (link->role != LinkRole::peer && link->frames.waiting_bytes() > early_max) dismiss(connection);
 }
 
 void PeerLinks::identify(rti::ConnectionId connection, peer::PeerNumber number,
@@ -117,9 +127,9 @@ void PeerLinks::push_all() {
 void PeerLinks::push(rti::ConnectionId connection, PeerLink& link) {
   while (link.is_open && !link.is_closed && !link.outbox.empty() &&
          sockets_.get().queued_bytes(connection) < queued_max) {
-    const std::vector<std::uint8_t>& first = link.outbox.front();
+    const rti::Bytes first = link.outbox.front();
     const std::size_t size = std::min(slice_max, first.size() - link.out_begin);
-    const rti::Bytes slice = std::as_bytes(std::span(first).subspan(link.out_begin, size));
+    const rti::Bytes slice = first.subspan(link.out_begin, size);
     sockets_.get().send(connection, std::span(&slice, 1));
     link.out_begin += size;
     if (link.out_begin == first.size()) link.outbox.pop_front(), link.out_begin = 0;

@@ -32,7 +32,8 @@ class PeerLinks {
   /// The transport has opened the connection. One that was not dialled is a stranger's, and is
   /// dismissed where there are too many of them.
   void open(rti::ConnectionId connection);
-  /// The bytes wait in the connection's frames.
+  /// The bytes wait in the connection's frames. A connection of nobody's for which too many wait is
+  /// dismissed.
   void add(rti::ConnectionId connection, rti::Bytes bytes);
   /// The connection is the peer's of this number from now on, and carries what waited for it.
   void identify(rti::ConnectionId connection, peer::PeerNumber number, const PeerInfo& info);
@@ -72,6 +73,8 @@ class PeerLinks {
 
   std::uint64_t dismissed() const { return dismissed_; }
   std::uint64_t bytes_sent() const { return bytes_sent_; }  ///< of all frames to peers
+  /// Of the connection that is the peer's of this number; zero if there is none.
+  rti::TransportCounters counters_of(peer::PeerNumber number) const;
 
  private:
   void push(rti::ConnectionId connection, PeerLink& link);

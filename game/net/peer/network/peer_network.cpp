@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace rink::game {
@@ -20,6 +21,7 @@ PeerNetwork::PeerNetwork(rti::SocketTransport& sockets, const PeerNetworkSetting
     : sockets_(sockets),
       now_s_(now_s),
       patience_s_(settings.patience_s),
+      gathering_s_(settings.gathering_s),
       must_end_(settings.must_end),
       roster_(settings.self, settings.bats, settings.session_fingerprint, settings.session),
       links_(sockets, now_s),
@@ -29,7 +31,7 @@ PeerNetwork::PeerNetwork(rti::SocketTransport& sockets, const PeerNetworkSetting
 
 void PeerNetwork::attend(double wait_s) {
   if (before_wait) wait_s = std::clamp(before_wait() - now_s_(), 0.0, wait_s);
-  if (losses_.are_survived()) links_.show_signs(patience_s_);
+  links_.show_signs(patience_s_);  // who waits for another must not seem silent itself
   links_.push_all();
   if (links_.is_sending()) wait_s = std::min(0.001, wait_s);
   sockets_.get().poll(std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * wait_s)), *this);
@@ -63,10 +65,12 @@ void PeerNetwork::join(const Place& any) {
 /// A peer that falls silent before all are connected would keep the others waiting for ever: it
 /// neither plays nor closes its connection.
 void PeerNetwork::gather() {
+  const double give_up_s = now_s_() + gathering_s_;
   Patience patience(patience_s_, 0.5 * patience_s_, now_s_());
   while (!links_.are_open(roster_.terms().peer_count, roster_.number())) {
     attend(wait_s_max);
     links_.show_signs(patience_s_);
+    if (now_s_() > give_up_s) throw too_few_came();
     patience.look(now_s_());
     for (const auto& [connection, link] : links_.all())
       if (link.role == LinkRole::peer && !link.is_closed &&
@@ -78,9 +82,19 @@ void PeerNetwork::gather() {
   }
 }
 
+SessionError PeerNetwork::too_few_came() {
+  std::uint32_t came = 1;  // this one
+  for (const auto& [connection, link] : links_.all())
+    came += link.role == LinkRole::peer && link.is_open && !link.is_closed ? 1 : 0;
+  return {ExitStatus::nobody_came,
+          std::to_string(came) + " of " + std::to_string(roster_.terms().peer_count) +
+              " came within " + std::to_string(std::lround(gathering_s_)) + " s"};
+}
+
 void PeerNetwork::rest_until(double time_s) {
-  for (double left_s = time_s - now_s_(); left_s > 0.0 && !must_end_(); left_s = time_s - now_s_())
-    attend(std::min(left_s, wait_s_max));
+  // Who is late looks at others and the user all the same.
+  do attend(std::clamp(time_s - now_s_(), 0.0, wait_s_max));
+  while (now_s_() < time_s && !must_end_());
 }
 
 void PeerNetwork::leave(const Farewell& farewell) {
@@ -106,12 +120,17 @@ void PeerNetwork::defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) 
   conversation_.defer(from, std::move(bytes));
 }
 
-std::vector<std::uint8_t> PeerNetwork::receive(peer::PeerNumber from) {
+std::pair<peer::PeerNumber, std::vector<std::uint8_t>> PeerNetwork::receive_any(
+    std::span<const peer::PeerNumber> from) {
   Patience patience(patience_s_, std::max(0.5 * patience_s_, 2.0 * wait_s_max), now_s_());
   for (;;) {
     patience.look(now_s_());
-    if (auto mail = conversation_.take_mail(from)) return std::move(*mail);
-    if (conversation_.may_still_come(from, patience)) attend(wait_s_max);
+    for (const peer::PeerNumber peer : from)
+      if (auto mail = conversation_.take_mail(peer)) return {peer, std::move(*mail)};
+    bool may_come = true;
+    for (const peer::PeerNumber peer : from)
+      may_come = conversation_.may_still_come(peer, patience) && may_come;
+    if (may_come) attend(wait_s_max);
   }
 }
 
@@ -142,6 +161,7 @@ void PeerNetwork::on_open(rti::ConnectionId connection) {
 void PeerNetwork::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
   links_.add(connection, bytes);
   read_frames(connection);
+  if (PeerLink* const link = links_.find(connection)) link->frames.keep();
 }
 
 void PeerNetwork::on_close(rti::ConnectionId connection, rti::CloseReason reason,
@@ -161,19 +181,19 @@ void PeerNetwork::on_close(rti::ConnectionId connection, rti::CloseReason reason
 void PeerNetwork::read_frames(rti::ConnectionId connection) {
   for (PeerLink* link = links_.find(connection); link && !link->is_closed && !link->early;
        link = links_.find(connection)) {
-    const std::optional<Frame> frame =
+    std::optional<Frame> frame =
         link->frames.next(link->role == LinkRole::peer ? peer_frame_max : stranger_frame_max);
     if (!frame && (!link->frames.is_broken() || link->role == LinkRole::dismissed)) return;
     if (link->role == LinkRole::dismissed) continue;
     const LinkRole role = link->role;
-    if (frame && handle(connection, *link, *frame)) continue;
+    if (frame && handle(connection, *link, std::move(*frame))) continue;
     if (role == LinkRole::stranger || role == LinkRole::caller) return links_.dismiss(connection);
     end_bad(connection, *link);
   }
 }
 
 /// False for a frame that nobody in its role would send.
-bool PeerNetwork::handle(rti::ConnectionId connection, PeerLink& link, const Frame& frame) {
+bool PeerNetwork::handle(rti::ConnectionId connection, PeerLink& link, Frame frame) {
   switch (link.role) {
     case LinkRole::stranger:
       return admission_.handle(connection, frame);
@@ -184,7 +204,7 @@ bool PeerNetwork::handle(rti::ConnectionId connection, PeerLink& link, const Fra
       return true;
     }
     case LinkRole::peer:
-      return conversation_.handle(connection, link, frame);
+      return conversation_.handle(connection, link, std::move(frame));
     case LinkRole::caller:
     case LinkRole::dismissed:
       break;

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "game/net/interrupt.h"
 #include "game/net/peer/network/greetings.h"
 #include "game/net/peer/network/leaving_time.h"
 #include "game/net/peer/network/peer_admission.h"
@@ -17,23 +18,10 @@
 #include "game/net/peer/network/peer_losses.h"
 #include "game/net/peer/network/peer_roster.h"
 #include "game/net/peer/network/session_error.h"
-#include "game/net/peer/network/side_channel.h"
-#include "game/peer/protocol.h"
+#include "game/net/peer/network/session_network.h"
 #include "rti/transport/socket_transport.h"
 
 namespace rink::game {
-
-struct PeerNetworkSettings {
-  PeerInfo self;  ///< where others reach this peer, which listens there already; and the number of
-                  ///< its bats, among so many:
-  std::uint32_t bats = 0;
-  Fingerprint session_fingerprint;
-  std::uint64_t session = 0;  ///< of a first peer: a number that cannot be guessed
-  double patience_s = 30.0;   ///< timeout of a peer whose answer is due
-  std::function<bool()> must_end = [] {
-    return is_interrupted != 0;
-  };  ///< the user wants this peer's part to be over
-};
 
 /// Waits for the transport, and gives what comes to whoever handles it. Calls that wait throw
 /// SessionError when another peer is gone, interrupted or silent, when this one is refused, or when
@@ -41,7 +29,7 @@ struct PeerNetworkSettings {
 /// instead in the first three cases (peer::SentAway for a newcomer that may try again), and for a
 /// user's interrupt only if leaving takes too long. A connection that sends what no peer would is
 /// closed without further effect.
-class PeerNetwork final : public peer::Mail, public SideChannel, private rti::TransportListener {
+class PeerNetwork final : public SessionNetwork, private rti::TransportListener {
  public:
   PeerNetwork(rti::SocketTransport& sockets, const PeerNetworkSettings& settings,
               double (*now_s)());
@@ -52,30 +40,32 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
   void join(const Place& any);
   /// The members at the time of a newcomer's joining a running game; otherwise empty.
   const std::vector<peer::PeerNumber>& members() const { return roster_.members(); }
-  /// Waits until all first peers are connected.
-  void gather();
-  /// The game begins: from here on peers may be lost, and others join.
-  void begin();
-  /// Call it before each window, to measure its length and the time that leaving takes.
-  void note_window() { leaving_.note_window(now_s_()); }
+  void gather() override;
+  void begin() override;
+  void note_window() override { leaving_.note_window(now_s_()); }
   /// Closes all connections without a message.
   void abandon() { links_.abandon(); }
-  /// Only receives until `time_s` of the clock, or a user's interrupt.
-  void rest_until(double time_s);
-  /// Sends a farewell to all, and waits until all bytes are sent.
-  void leave(const Farewell& farewell);
+  void rest_until(double time_s) override;
+  void leave(const Farewell& farewell) override;
 
-  const Terms& terms() const { return roster_.terms(); }
-  peer::PeerNumber number() const { return roster_.number(); }
-  /// All peers, by number, once they are gathered.
-  const std::vector<PeerInfo>& peer_infos() const { return roster_.infos(); }
+  const Terms& terms() const override { return roster_.terms(); }
+  peer::PeerNumber number() const override { return roster_.number(); }
+  const std::vector<PeerInfo>& peer_infos() const override { return roster_.infos(); }
   /// The number of refused connections, and the bytes of all frames to peers.
   std::uint64_t dismissed() const { return links_.dismissed(); }
   std::uint64_t bytes_sent() const { return links_.bytes_sent(); }
   rti::TransportCounters transported() const { return sockets_.totals(); }
+  /// The counters of the connection to another peer; zero if there is none.
+  rti::TransportCounters sent_to(peer::PeerNumber peer) const override {
+    return links_.counters_of(peer);
+  }
 
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
-  std::vector<std::uint8_t> receive(peer::PeerNumber from) override;
+  std::vector<std::uint8_t> receive(peer::PeerNumber from) override {
+    return receive_any({&from, 1}).second;
+  }
+  std::pair<peer::PeerNumber, std::vector<std::uint8_t>> receive_any(
+      std::span<const peer::PeerNumber> from) override;
   void part(peer::PeerNumber peer, bool is_lost) override { conversation_.part(peer, is_lost); }
   void rejoin(peer::PeerNumber peer) override { conversation_.rejoin(peer); }
   std::vector<peer::Newcomer> callers() override { return admission_.callers(); }
@@ -87,12 +77,7 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
   void admit(peer::PeerNumber candidate, bool is_in) override;
   void send_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override;
 
-  /// Keeps a side message that came too early.
-  void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes);
-
-  /// If not empty, called before each wait, also for mail: does what is due, and returns when it
-  /// must be called again [s of the clock].
-  std::function<double()> before_wait;
+  void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) override;
 
  private:
   void on_open(rti::ConnectionId connection) override;
@@ -102,13 +87,14 @@ class PeerNetwork final : public peer::Mail, public SideChannel, private rti::Tr
 
   void attend(double wait_s);
   void read_frames(rti::ConnectionId connection);
-  bool handle(rti::ConnectionId connection, PeerLink& link, const Frame& frame);
+  bool handle(rti::ConnectionId connection, PeerLink& link, Frame frame);
   void end_bad(rti::ConnectionId connection, PeerLink& link);
   void check_interrupt();
+  SessionError too_few_came();
 
   rti::SocketTransport& sockets_;
   double (*now_s_)();
-  double patience_s_;
+  double patience_s_, gathering_s_;
   std::function<bool()> must_end_;
   PeerRoster roster_;
   PeerLosses losses_;

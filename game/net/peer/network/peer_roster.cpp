@@ -5,6 +5,8 @@
 #include <cassert>
 #include <string>
 
+#include "game/net/peer/network/difference.h"
+
 namespace rink::game {
 
 namespace {
@@ -70,9 +72,7 @@ std::variant<Welcome, Refused> PeerRoster::seat(const PeerInfo& info) {
                        " peers that were waited for are there, and do not play yet"};
   assert(bats_taken_ <= bats_);
   if (const std::uint32_t free = bats_ - bats_taken_; info.bat_count > free)
-    return Refused{RefusalKind::other, "it wants to play " + std::to_string(info.bat_count) +
-                                           " bats, of " + std::to_string(bats_) + " here " +
-                                           std::to_string(free) + " are free"};
+    return Refused{RefusalKind::other, too_few_bats(info.bat_count, bats_, free)};
   Welcome welcome{.session = session_,
                   .terms = terms_,
                   .sponsor = 0,

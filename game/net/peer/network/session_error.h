@@ -1,10 +1,13 @@
 // The exception that ends a peer's session early.
 #pragma once
 
+#include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "game/net/exit_status.h"
+#include "game/peer/protocol.h"
 
 namespace rink::game {
 
@@ -18,5 +21,13 @@ class SessionError : public std::runtime_error {
  private:
   ExitStatus status_;
 };
+
+/// The exit status for what ends a session early; nothing for any other error.
+inline std::optional<ExitStatus> session_status(const std::exception& error) {
+  if (const auto* session = dynamic_cast<const SessionError*>(&error)) return session->status();
+  if (dynamic_cast<const peer::Halt*>(&error) != nullptr) return ExitStatus::connection_lost;
+  if (dynamic_cast<const peer::ProtocolError*>(&error) != nullptr) return ExitStatus::failed;
+  return std::nullopt;
+}
 
 }  // namespace rink::game

@@ -19,6 +19,9 @@ class SideChannel {
   /// Called while the peer waits for mail; messages wait while it is empty. False for a message
   /// that no peer sends: its sender is dropped.
   std::function<bool(peer::PeerNumber from, std::vector<std::uint8_t> bytes)> receive_aside;
+  /// If not empty, called before each wait, also for mail: does what is due, and returns when it
+  /// must be called again [s of the clock].
+  std::function<double()> before_wait;
 };
 
 }  // namespace rink::game

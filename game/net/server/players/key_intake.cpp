@@ -54,6 +54,7 @@ std::optional<InputEvent> KeyIntake::accept(std::uint32_t player, bool is_down, 
     return std::nullopt;
   }
   if (!arrival.is_felt) return std::nullopt;
+  waiting_.back().is_submitted = true;
   hand.held.set(*key, is_down);
   return InputEvent{.time = time,
                     .player = player,
@@ -88,6 +89,29 @@ void KeyIntake::feel_until(double until) {
     ++counters_.applied;
     return true;
   });
+}
+
+/// Keys that were pressed by nobody who waits for them, as those of a player that has left, are
+/// none of its.
+void KeyIntake::feel_next(std::uint32_t player) {
+  const auto key = std::ranges::find_if(waiting_, [player](const Waiting& each) {
+    return each.player == player && each.is_submitted;
+  });
+  if (key == waiting_.end()) return;
+  waiting_.erase(key);
+  ++felt_[player];
+  ++counters_.applied;
+}
+
+void KeyIntake::feel_unsubmitted() {
+  std::vector<bool> is_blocked(waiting_.empty() ? 0 : felt_.size());
+  std::vector<Waiting> kept;
+  for (const Waiting& key : waiting_) {
+    if (key.is_submitted) is_blocked[key.player] = true;
+    if (is_blocked[key.player]) kept.push_back(key);
+    else ++felt_[key.player], ++counters_.applied;
+  }
+  waiting_ = std::move(kept);
 }
 
 void KeyIntake::begin() {

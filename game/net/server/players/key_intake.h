@@ -49,6 +49,11 @@ class KeyIntake {
   std::vector<InputEvent> release(std::uint32_t player, double simulated_s);
   /// The game was played up to `until` [s].
   void feel_until(double until);
+  /// Of a shared simulation: the player's earliest key that was submitted and not felt has taken
+  /// effect.
+  void feel_next(std::uint32_t player);
+  /// Of a shared simulation: keys that were not submitted count as felt once all before them are.
+  void feel_unsubmitted();
   /// The next game begins at 0: all keys on their way count as in effect, none is held or recorded.
   void begin();
 
@@ -69,6 +74,7 @@ class KeyIntake {
   struct Waiting {
     double time;
     std::uint32_t player;
+    bool is_submitted = false;  ///< else over the limit, or not to be felt
   };
 
   double stamp(Hand& hand, const KeyArrival& arrival);

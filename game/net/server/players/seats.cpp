@@ -8,9 +8,34 @@
 
 namespace rink::game {
 
-std::optional<std::uint32_t> Seats::free(std::string_view federate_name) const {
+void Seats::keep_to(std::uint32_t first, std::uint32_t count) {
+  assert(player_count_ == 0 && first <= is_taken_.size() && count <= is_taken_.size() - first);
   for (std::uint32_t player = 0; player < is_taken_.size(); ++player)
-    if (!is_taken_[player] && federate_name == bat_name(player)) return player;
+    is_taken_[player] = player < first || player - first >= count;
+}
+
+void Seats::open(std::uint32_t player) {
+  assert(player < is_taken_.size() && !federate_of(player));
+  is_taken_[player] = false;
+}
+
+std::optional<rti::FederateHandle> Seats::take_waiting(std::uint64_t token) {
+  const auto one = std::ranges::find(waiting_, token, &Waiting::token);
+  if (one == waiting_.end()) return std::nullopt;
+  const rti::FederateHandle federate = one->federate;
+  waiting_.erase(one);
+  return federate;
+}
+
+std::optional<std::uint32_t> Seats::named(std::string_view federate_name) const {
+  for (std::uint32_t player = 0; player < is_taken_.size(); ++player)
+    if (federate_name == bat_name(player)) return player;
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> Seats::free(std::string_view federate_name) const {
+  const std::optional<std::uint32_t> own = named(federate_name);
+  if (own && !is_taken_[*own]) return own;
   const auto free = std::find(is_taken_.begin(), is_taken_.end(), false);
   if (free == is_taken_.end()) return std::nullopt;
   return static_cast<std::uint32_t>(free - is_taken_.begin());

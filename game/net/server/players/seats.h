@@ -27,6 +27,22 @@ class Seats {
 
   explicit Seats(std::uint32_t seat_count) : is_taken_(seat_count), is_leaving_(seat_count) {}
 
+  /// This server's players take only `count` seats from `first` on. None of them is there yet.
+  void keep_to(std::uint32_t first, std::uint32_t count);
+  /// Of a shared game: this server was given the seat of `player`, which is free here.
+  void open(std::uint32_t player);
+  /// Of a shared game: the federate waits for an answer to its question, whose token that is.
+  void await(rti::FederateHandle federate, std::uint64_t token) {
+    waiting_.push_back({federate, token});
+  }
+  /// The one who waits for that answer, who waits no longer; nothing if it has gone.
+  std::optional<rti::FederateHandle> take_waiting(std::uint64_t token);
+  /// The federate waits no longer, if it did.
+  void forget_waiting(rti::FederateHandle federate) {
+    std::erase_if(waiting_, [federate](const Waiting& one) { return one.federate == federate; });
+  }
+  /// The bat whose name the federate bears, taken or not.
+  std::optional<std::uint32_t> named(std::string_view federate_name) const;
   /// The bat that bears the federate's name ("bat-17"), or else the first free one.
   std::optional<std::uint32_t> free(std::string_view federate_name) const;
   /// The seat must be free (asserted).
@@ -76,9 +92,14 @@ class Seats {
   void begin_turns();
 
  private:
+  struct Waiting {
+    rti::FederateHandle federate;
+    std::uint64_t token;
+  };
   std::vector<std::optional<Seat>> seats_;   ///< by federate
   std::vector<bool> is_taken_, is_leaving_;  ///< by player
   std::vector<Seated> offered_;
+  std::vector<Waiting> waiting_;
   std::uint32_t player_count_ = 0, turns_done_ = 0;
 };
 

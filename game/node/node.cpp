@@ -1,0 +1,384 @@
+// Plays the windows of a node's own part, and tells the other nodes what changed in each.
+#include "game/node/node.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+#include <utility>
+
+#include "game/net/interrupt.h"
+#include "game/net/peer/crowd.h"
+#include "game/net/peer/network/unguessable_number.h"
+#include "game/net/peer/start_together.h"
+#include "game/peer/message_bytes.h"
+
+namespace rink::game {
+namespace {
+
+/// Nodes and peers of one scene refuse each other: they do not speak of the same things.
+Fingerprint fingerprint_of_nodes(const SharedGame& game) {
+  Fingerprint fingerprint = game.session_fingerprint();
+  StateHash keys;
+  keys.add(fingerprint.keys), keys.add(std::uint64_t{0x6e6f64657332});
+  fingerprint.keys = keys.value();
+  return fingerprint;
+}
+
+/// Free flights have the rest of their state in `game`.
+std::vector<Game::ShownBody> bodies_of(const peer::PartChange& change, const Game& game) {
+  std::vector<Game::ShownBody> bodies;
+  bodies.reserve(change.bodies.size() + change.free_flights.size());
+  for (const peer::Handover::Body& body : change.bodies)
+    bodies.push_back({{body.number}, body.state});
+  for (const peer::FreeFlightState& flight : change.free_flights) {
+    bodies.push_back({{flight.number}, physics::Subdomain::state_in(game.world(), flight.number)});
+    flight.write_to(bodies.back().state.flight);
+  }
+  return bodies;
+}
+
+Game::ShownScore shown_score(const peer::Scoring& scoring) {
+  Game::ShownScore shown{
+      .score = {scoring.left, scoring.right}, .is_over = scoring.is_over, .face_offs = {}};
+  for (const peer::FaceOff& due : scoring.face_offs)
+    shown.face_offs.push_back({due.time, {due.puck}, due.is_left ? Team::left : Team::right});
+  return shown;
+}
+
+/// Or a greeting could name bats that are not there, or another node's.
+void require_bats_of_their_own(std::span<const PeerInfo> nodes, std::uint32_t bat_count) {
+  std::uint64_t free = 0;
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const PeerInfo& info = nodes[node];
+    if (info.first_bat < free || info.first_bat > bat_count ||
+        info.bat_count > bat_count - info.first_bat)
+      throw peer::ProtocolError("peer " + std::to_string(node) +
+                                " plays bats that are not there, or another's");
+    free = std::uint64_t{info.first_bat} + info.bat_count;
+  }
+}
+
+/// If it fails, the other nodes that wait are told why there is no game.
+void gather(SessionNetwork& network) {
+  try {
+    network.gather();
+  } catch (const SessionError& error) {
+    network.leave({FarewellKind::trouble, error.what()});
+    throw;
+  }
+}
+
+}  // namespace
+
+Node::Node(SharedGame& game, Meeting& meeting, const NodeSettings& settings, double (*now_s)())
+    : game_(game),
+      meeting_(meeting),
+      settings_(settings),
+      now_s_(now_s),
+      subscription_(game.scene().world.field, settings.reach) {
+  if (game.has_keys())
+    throw SceneError("scene '" + game.scene().name +
+                     "' has keys of its own, and nodes play those of their clients: expected one "
+                     "without");
+}
+
+void Node::meet() {
+  assert(!thread_.joinable());
+  const PeerInfo own{.place = {},
+                     .bat_count = settings_.player_count,
+                     .hand_count = settings_.player_count,
+                     .token = unguessable_number()};
+  network_ = meeting_.enter({.self = own,
+                             .bats = game_.bat_count(),
+                             .session_fingerprint = fingerprint_of_nodes(game_),
+                             .session = unguessable_number(),
+                             .patience_s = settings_.patience_s,
+                             .gathering_s = settings_.gathering_s,
+                             .must_end = [this] { return is_interrupted != 0 || must_end_; }},
+                            now_s_);
+  game_.require_window(terms().window);
+  gather(*network_);
+  const std::string scheme = settings_.hosting ? matches_scheme : nodes_scheme;
+  if (terms().interest.scheme != scheme || terms().is_replicated || terms().is_seated ||
+      number() >= terms().peer_count)
+    throw SessionError(ExitStatus::not_admitted,
+                       "the first node gave terms that these nodes do not have: expected " +
+                           scheme + " without standby copies");
+  require_bats_of_their_own(std::span(network_->peer_infos()).first(terms().peer_count),
+                            game_.bat_count());
+  players_.emplace(game_, first_player(), player_count());
+  if (settings_.hosting) match_.emplace(*settings_.hosting);
+  SeatTable table(game_.bat_count(), settings_.hosting ? 0.0 : settings_.absence_s);
+  for (peer::PeerNumber node = 0; node < terms().peer_count; ++node)
+    table.assign(node, network_->peer_infos()[node].first_bat,
+                 network_->peer_infos()[node].bat_count);
+  seats_.emplace(std::move(table), number(), terms().peer_count);
+  feed_.emplace(terms().peer_count, end_of_window(terms(), 1));
+  receiver_.emplace(game_.start().world(), terms(), number(), *feed_);
+  seat_players();
+  thread_ = std::thread([this] { run(); });
+}
+
+void Node::seat_players() {
+  const Game& start = game_.start();
+  teller_.emplace(game_.scene().world.field, start.world().body_count(), terms().peer_count,
+                  number());
+  for (peer::PeerNumber to = 0; to < terms().peer_count; ++to) {
+    const PeerInfo& info = network_->peer_infos()[to];
+    for (std::uint32_t player = info.first_bat; player < info.first_bat + info.bat_count; ++player)
+      teller_->seat(to, start.bat(player)->index);
+  }
+}
+
+Node::~Node() {
+  must_end_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void Node::run() {
+  try {
+    share();
+  } catch (const std::exception& error) {
+    outcome_.failure = std::current_exception();
+    network_->leave(
+        {is_interrupted != 0 ? FarewellKind::interrupted : FarewellKind::trouble, error.what()});
+  }
+  has_ended_ = true;
+}
+
+void Node::wait_for(const std::function<bool()>& is_there) {
+  while (!is_there()) {
+    if (is_interrupted != 0 || must_end_)
+      throw SessionError(ExitStatus::interrupted, "interrupted while no game was played");
+    network_->rest_until(now_s_() + look_s);
+  }
+}
+
+void Node::share() {
+  wait_for([this] { return is_ready_.load(); });
+  const double start_s = start_together(*network_, now_s_) + start_lead_s;
+  network_->receive_aside = [this](peer::PeerNumber from, const std::vector<std::uint8_t>& bytes) {
+    return receive(from, bytes);
+  };
+  network_->begin();
+  start_s_ = start_s;
+  wait_for([this] { return has_begun(); });
+  if (match_) host();
+  else play();
+  network_->leave({});
+}
+
+/// A match needs the start again when the next one begins.
+void Node::play() {
+  PartOptions options;
+  options.before_window = [this](double time) {
+    network_->note_window();
+    if (!match_) network_->rest_until(start_s_ + time);
+  };
+  options.participant = this;
+  options.takes_latecomers = true;
+  if (!match_)
+    network_->before_wait = [this] {
+      pass_on_keys();
+      return now_s_() + look_s;
+    };
+  if (match_) options.is_stopped = [this](std::uint64_t window) { return match_->is_last(window); };
+  else options.when_taken = [this] { game_.forget_start(); };
+  outcome_.part = game_.play(terms(), network_->peer_infos(), number(), *network_, options);
+  session_ = nullptr;
+}
+
+bool Node::may_begin() {
+  check();
+  is_ready_ = true;
+  return start_s_ > 0.0;
+}
+
+void Node::before_window(peer::Session& session) {
+  session_ = &session;
+  if (match_) await_match_window(session);
+  if (session.window() == 0) {
+    session.peer().keep_changes(), teller_->begin(session.peer());
+    for (const auto& [player, node] : seats_->holders())
+      take_over({.node = node, .player = player}, session);
+  }
+  agree_on_seats(session);
+  pass_on_keys();
+  if (match_) return;  // all are told of everything, which is little
+  const std::optional<Cells> cells = subscription_.take();
+  if (!cells) return;
+  WantedCells wanted{.step = session.step() + 1, .side = cells->side(), .runs = cells->runs()};
+  tell_others(*network_, NodeMessage::wanted_cells, peer::bytes_from(wanted));
+}
+
+void Node::pass_on_wishes() {
+  ListOf<SeatWish> wishes{seats_->take_wishes()};
+  if (number() == 0)
+    for (const SeatWish& wish : wishes.words) seats_->hear(0, wish);
+  else if (!wishes.words.empty())
+    say(*network_, 0, NodeMessage::seat_wishes, bytes_of(std::move(wishes)));
+  if (!match_) return;
+  for (const MatchWish& wish : match_->take_wishes())
+    if (number() == 0) match_->apply(wish, clock_s());
+    else say(*network_, 0, NodeMessage::match_wish, bytes_of(wish));
+}
+
+void Node::pass_on_keys() {
+  if (session_ == nullptr) return;
+  for (auto& [owner, keys] : players_->take(*session_))
+    if (owner != number()) say(*network_, owner, NodeMessage::keys, bytes_of(std::move(keys)));
+    else
+      for (const peer::Press& key : keys.words) session_->peer().receive(owner, key);
+}
+
+void Node::decide_seats(std::uint64_t instant, double now_s) {
+  if (number() != 0) return;
+  const ListOf<SeatDecision> decisions{seats_->decide(instant, now_s)};
+  if (!decisions.words.empty())
+    tell_others(*network_, NodeMessage::seat_decisions, bytes_of(decisions));
+  for (const SeatDecision& decision : decisions.words) receive(decision);
+  if (!match_) return;
+  for (const std::uint32_t player : {0u, 1u})
+    match_->take_part(player, seats_->is_taken(player), clock_s());
+}
+
+/// Decisions of node 0 hold after the window that is now played: then all have its claims, and with
+/// them the decisions, which it sends before.
+void Node::agree_on_seats(peer::Session& session) {
+  const std::uint64_t instant =
+      NodeSeats::instant_of(match_ ? match_->begun() : 0, session.window());
+  pass_on_wishes();
+  decide_seats(instant + 1, match_ ? clock_s() : session.peer().now());
+  for (const SeatDecision& decision : seats_->due(instant)) take_over(decision, session);
+}
+
+void Node::take_over(const SeatDecision& decision, peer::Session& session) {
+  if (decision.player == no_player) return;
+  const std::uint32_t bat = game_.start().bat(decision.player)->index;
+  teller_->seat(decision.node, bat);
+  session.peer().players().move_seat(
+      {.bat = bat, .peer = decision.node, .period = 0.0, .puck_count = 0});
+  if (decision.node == number()) players_->seat(decision.player);
+  else players_->unseat(decision.player);
+}
+
+void Node::after_stretch(const peer::Session& session) {
+  peer::PartChange change = session.peer().change(false);
+  change.step = session.step();
+  change.gone.clear(), change.keys.clear();
+  // A post changes hands where zones shift; all have it where it always is.
+  std::erase_if(change.bodies, [&](const peer::Handover::Body& body) {
+    return session.peer().world().kind({body.number}) == physics::BodyKind::post;
+  });
+  teller_->look(session.peer(), change, session.is_over());
+  for (peer::PeerNumber to = 0; to < terms().peer_count; ++to)
+    if (to != number())
+      say(*network_, to, NodeMessage::change, teller_->bytes_for(to, session.peer(), change));
+  feed_->expect(session.scoring(), session.peer().end());
+  receiver_->finish_window(std::move(change), session.division(), session.peer().share());
+}
+
+/// False for what no node says.
+bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes) {
+  if (bytes.empty()) return false;
+  const auto content = std::span(bytes).first(bytes.size() - 1);
+  switch (static_cast<NodeMessage>(bytes.back())) {
+    case NodeMessage::change: {
+      peer::PartChange change;
+      return session_ != nullptr && read(content, change) &&
+             receiver_->receive(from, std::move(change));
+    }
+    case NodeMessage::wanted_cells: {
+      WantedCells wanted;
+      return peer::read_whole(content, wanted) && teller_->follow(from, wanted);
+    }
+    case NodeMessage::seat_wishes: {
+      const auto wishes = message_from<ListOf<SeatWish>>(content);
+      return wishes && std::ranges::all_of(wishes->words, [&](const SeatWish& wish) {
+               return seats_->hear(from, wish);
+             });
+    }
+    case NodeMessage::seat_decisions: {
+      const auto decisions = message_from<ListOf<SeatDecision>>(content);
+      return from == 0 && decisions &&
+             std::ranges::all_of(decisions->words,
+                                 [this](const SeatDecision& each) { return receive(each); });
+    }
+    case NodeMessage::keys: {
+      const auto keys = message_from<ListOf<peer::Press>>(content);
+      if (!keys) return false;
+      if (session_ != nullptr)  // else it was pressed as a match ended here
+        for (const peer::Press& key : keys->words) session_->peer().receive(from, key);
+      return true;
+    }
+    case NodeMessage::match_wish: {
+      const auto wish = message_from<MatchWish>(content);
+      if (!wish || !match_ || number() != 0) return false;
+      match_->apply(*wish, clock_s());
+      return true;
+    }
+    case NodeMessage::match_news: {
+      const auto news = message_from<MatchNews>(content);
+      return from == 0 && news && match_ && match_->follow(*news);
+    }
+  }
+  return false;
+}
+
+/// A player of this node is seated before the answer reaches it. Its keys wait until the owner of
+/// its bat has the decision, too.
+bool Node::receive(const SeatDecision& decision) {
+  if (decision.node == number() && decision.player < game_.bat_count())
+    players_->seat(decision.player);
+  return seats_->hear(decision);
+}
+
+std::optional<ShownWindow> Node::show_next(double until, Game& game) {
+  if (match_ && match_->has_shown_all()) return check(), std::nullopt;
+  const bool is_over = has_ended_;  // what all have told was added before
+  const auto stretch = feed_->take(until + rounding_s);
+  if (!stretch) {
+    check();
+    if (is_over && feed_->taken() < feed_->count(number()) &&
+        feed_->end_of(feed_->taken() + 1) <= until)
+      throw SessionError(ExitStatus::failed,
+                         "another node has ended without telling what it played last");
+    return std::nullopt;
+  }
+  if (match_) match_->note_shown(feed_->taken());
+  std::vector<Game::ShownBody> bodies;
+  ShownWindow shown;
+  for (const peer::PartChange& change : stretch->changes) {
+    for (Game::ShownBody& body : bodies_of(change, game)) {
+      shown.told.push_back(body.id);
+      bodies.push_back(std::move(body));
+    }
+    for (const std::uint32_t body : change.gone) shown.left.push_back({body});
+    for (const peer::Key& key : change.log)
+      shown.keys.push_back(event_of(key.input, key.time, *game.entity({key.bat}).player));
+  }
+  game.show(stretch->changes.front().time, bodies, shown.keys, shown_score(stretch->score));
+  return shown;
+}
+
+bool Node::has_come(double until) const {
+  if (has_ended_ || (match_ && match_->has_shown_all())) return true;
+  return feed_->has_come(std::min(until, terms().until) - rounding_s);
+}
+
+bool Node::has_shown_all() const {
+  if (match_) return match_->has_shown_all();
+  return has_ended_ && !outcome_.failure && feed_->taken() == feed_->count(number());
+}
+
+const PlayedPart& Node::finish() {
+  if (thread_.joinable()) thread_.join();
+  check();
+  return outcome_.part;
+}
+
+void Node::check() {
+  if (has_ended_ && outcome_.failure) std::rethrow_exception(outcome_.failure);
+}
+
+}  // namespace rink::game

@@ -1,0 +1,22 @@
+// The terms on which nodes meet, by which those of clients and those of matches are told apart.
+#pragma once
+
+#include <cstdint>
+
+#include "game/net/peer/network/greetings.h"
+
+namespace rink::game {
+
+/// In place of a scheme of peers, so that the two are not taken for each other.
+inline constexpr const char *nodes_scheme = "nodes", *matches_scheme = "matches";
+
+/// The terms of `node_count` nodes that play `until` [s] in windows of a tick each [s]; their zones
+/// may shift every `balance_windows`, or never if that is 0.
+Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
+                     std::uint32_t balance_windows = balance_windows_default);
+/// Of nodes that host matches. A window is the tick rounded to the grid of matches, so that stamps
+/// are short.
+Terms terms_of_matches(std::uint32_t node_count, double tick_s,
+                       std::uint32_t balance_windows = balance_windows_default);
+
+}  // namespace rink::game

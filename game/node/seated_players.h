@@ -1,0 +1,67 @@
+// The keys of a node's players on their way to the owners of their bats.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "game/control/bat_controller.h"
+#include "game/net/peer/shared_game.h"
+#include "game/node/node_messages.h"
+#include "game/peer/session/session.h"
+
+namespace rink::game {
+
+/// The server's thread presses, and says who leaves; all else is the session's thread's.
+class SeatedPlayers {
+ public:
+  /// `count` players of the scene from `first` on. The game must outlive it.
+  SeatedPlayers(const SharedGame& game, std::uint32_t first, std::uint32_t count);
+
+  /// The key is felt at `time` [s] or later. Of a player who is not seated here, or no longer,
+  /// nothing is sent.
+  void press(std::uint32_t player, Key key, bool is_down, double time = 0.0);
+
+  /// What the player presses from now on is not heard until it is seated here again.
+  void leave(std::uint32_t player);
+
+  /// Between windows: from now on the player is seated here, without pressed keys, unless it was;
+  /// or no longer.
+  void seat(std::uint32_t player);
+  void unseat(std::uint32_t player);
+  bool is_seated(std::uint32_t player) const;
+  /// Another session begins: no key is pressed, or on its way. All nodes know by then that `known`
+  /// are seated here; others wait, as in `seat`, until their bats' owners have shown them.
+  void begin_session(std::span<const std::uint32_t> known);
+  /// What is to be sent to the bats' owners now, by owner, ahead of the next window's claims; until
+  /// the first window was played it goes with these. Keys wait while a window is played.
+  std::map<peer::PeerNumber, ListOf<peer::Press>> take(peer::Session& session);
+  /// After a window: where the bats are now.
+  void look(const peer::Session& session);
+
+ private:
+  struct Player {
+    std::uint32_t number;
+    BatController pressed;
+    peer::Observation seen;  ///< the newest; its time is before the start until there is one
+  };
+  struct Pressed {
+    std::uint32_t player;
+    Key key;
+    bool is_down;
+    double time;
+  };
+  Player at_start(std::uint32_t player) const;
+  std::vector<Player>::iterator place_of(std::uint32_t player);
+
+  const SharedGame& game_;
+  std::vector<Player> players_;  ///< by number, and so by bat
+  std::mutex mutex_;
+  std::vector<Pressed> waiting_;  ///< guarded by `mutex_`, as are these:
+  std::set<std::uint32_t> left_;
+};
+
+}  // namespace rink::game
