@@ -32,6 +32,7 @@
 #include "game/node/rank_meeting.h"
 #include "game/node/socket_meeting.h"
 #include "game/process/thread_team.h"
+#include "game/replication/filter_setup.h"
 #include "game/replication/scheme_reach.h"
 #include "game/replication/trajectory_codec.h"
 #include "game/version/version.h"
@@ -84,8 +85,7 @@ ServedGame game_of(ServeOptions& options, RankCommand& command) {
 /// that look ahead, and swept regions, ask how fast other bodies are, so all must be there.
 SchemeReach reach_of_clients(const ServeOptions& options, const SharedGame& game) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
-  const im::FilterSettings settings =
-      federation_settings(game.scene(), options.scheme, options.cell_size).filter_settings;
+  const im::FilterSettings settings = filter_settings(game.scene(), options.cell_size);
   if (options.sweep_ticks > 0 || im::make_filter(options.scheme, settings)->traits().uses_flights)
     return {everywhere, everywhere};
   return reach_of(options.scheme, settings, game.extent_max());

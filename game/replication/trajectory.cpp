@@ -37,9 +37,7 @@ Motion at_or_before(const Motion& motion, double instant) {
 }
 
 Resistance own_resistance(const physics::World& world, physics::BodyId body) {
-  const physics::WorldSpec& spec = world.spec();
-  return Drag{.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction}
-      .of(world.kind(body));
+  return Drag::of(world.spec()).of(world.kind(body));
 }
 
 /// The acceleration of the body besides friction, which receivers derive from its velocity: 0 for a

@@ -33,6 +33,9 @@ struct Resistance {
 struct Drag {
   double pucks = 0.0, bats = 0.0;  ///< 1/s
   double puck_friction = 0.0;      ///< m/s^2
+  static Drag of(const physics::WorldSpec& spec) {
+    return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
+  }
   Resistance of(physics::BodyKind kind) const {
     return kind == physics::BodyKind::bat ? Resistance{bats, 0.0}
                                           : Resistance{pucks, puck_friction};

@@ -29,9 +29,7 @@ class UpdatePolicy {
   /// when it is due.
   virtual void write(const Game& game, const Entity& entity, rti::Writer& value) = 0;
   /// The drag that receivers are sent for their extrapolation.
-  virtual Drag sent_drag(const physics::WorldSpec& spec) const {
-    return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
-  }
+  virtual Drag sent_drag(const physics::WorldSpec& spec) const { return Drag::of(spec); }
 };
 
 /// Default of `UpdatePolicySettings::threshold`.

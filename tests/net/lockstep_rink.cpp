@@ -2,6 +2,7 @@
 #include "tests/net/lockstep_rink.h"
 
 #include "game/net/server/push_filter_hints.h"
+#include "game/replication/filter_setup.h"
 #include "game/replication/trajectory_codec.h"
 #include "tests/places.h"
 
@@ -12,8 +13,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   rti::FederationSettings settings;
   settings.federation = "rink";
   settings.filter = scheme;
-  settings.filter_settings.world = {0.0, 0.0, scene.world.field.length, scene.world.field.width};
-  settings.filter_settings.drag = scene.world.puck_drag;
+  settings.filter_settings = filter_settings(scene, 0.0);
   return settings;
 }
 

@@ -1,26 +1,16 @@
-// Teams are the sides of the table, owners the players by number; a player with held keys looks in
-// their direction.
+// A player with held keys looks in their direction.
 #include "game/net/server/push_filter_hints.h"
 
+#include "game/replication/filter_setup.h"
+
 namespace rink::game {
-namespace {
-
-std::uint32_t team_number(Team team) {
-  return team == Team::none ? im::Role::none : static_cast<std::uint32_t>(team);
-}
-
-}  // namespace
 
 void push_filter_hints(const Server& server, rti::FederationExecution& federation) {
   for (const auto& [object, entity] : server.publisher().registered())
-    federation.set_object_role(object,
-                               {.team = team_number(entity.team),
-                                .owner = entity.player.value_or(im::Role::none),
-                                .is_always_relevant = server.is_always_relevant(entity.kind)});
+    federation.set_object_role(object, role_of(entity, server.is_always_relevant(entity.kind)));
   for (const auto& [federate, player] : server.seats().offered())
-    federation.set_federate_role(
-        federate, {.team = team_number(server.game().entity(*server.game().bat(player)).team),
-                   .owner = player});
+    federation.set_federate_role(federate,
+                                 role_of(server.game().entity(*server.game().bat(player)), false));
   const im::Traits traits = federation.filter().traits();
   if (traits.uses_headings)
     server.seats().for_each([&](rti::FederateHandle federate, const Seats::Seat& seat) {

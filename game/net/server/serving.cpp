@@ -11,6 +11,7 @@
 
 #include "game/net/server/interest_report.h"
 #include "game/net/server/push_filter_hints.h"
+#include "game/replication/filter_setup.h"
 
 namespace rink::game {
 namespace {
@@ -120,13 +121,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
                                             double cell_size) {
   rti::FederationSettings settings;
   settings.filter = scheme;
-  settings.filter_settings = {
-      .world = {0.0, 0.0, scene.world.field.length, scene.world.field.width},
-      .cell_size = cell_size};
-  settings.filter_settings.drag = scene.world.puck_drag;
-  for (const Post& post : scene.bodies.posts)
-    settings.filter_settings.posts.push_back(
-        {post.body.position.x(), post.body.position.y(), post.body.radius});
+  settings.filter_settings = filter_settings(scene, cell_size);
   return settings;
 }
 

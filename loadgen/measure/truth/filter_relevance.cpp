@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "game/control/bat_controller.h"
-#include "game/net/server/serving.h"
+#include "game/replication/filter_setup.h"
 #include "im/basics/checked.h"
 
 namespace rink::loadgen {
@@ -18,17 +18,10 @@ im::Region around(const Vector2& centre, const Vector2& half) {
           centre.y() + half.y()};
 }
 
-std::uint32_t team_number(game::Team team) {
-  return team == game::Team::none ? im::Role::none : static_cast<std::uint32_t>(team);
-}
-
 }  // namespace
 
 FilterRelevance::FilterRelevance(const RelevanceArea& area, const game::Scene& scene)
-    : area_(area),
-      filter_(
-          im::make_filter(area.expression,
-                          game::federation_settings(scene, area.expression, 0.0).filter_settings)) {
+    : area_(area), filter_(im::make_filter(area.expression, game::filter_settings(scene, 0.0))) {
   assert(area.shape == RelevanceArea::Shape::filter && !im::fault_in_momentary(area.expression));
 }
 
@@ -51,9 +44,7 @@ void FilterRelevance::take_in(const game::Entity& entity, const Vector2& centre)
   filter_->set_update_region(number, around(centre, entity.half_extent));
   if (are_there_[number]) return;
   are_there_[number] = true;
-  filter_->set_entity_role(number, {.team = team_number(entity.team),
-                                    .owner = entity.player.value_or(im::Role::none),
-                                    .is_always_relevant = area_.always_by_role.has(entity.kind)});
+  filter_->set_entity_role(number, game::role_of(entity, area_.always_by_role.has(entity.kind)));
 }
 
 void FilterRelevance::subscribe(const game::Entity& bat, const game::Game& game,
@@ -62,7 +53,7 @@ void FilterRelevance::subscribe(const game::Entity& bat, const game::Game& game,
   filter_->set_subscription_region(number, around(centre, {area_.reach, area_.reach}));
   if (!relevant_[number]) {
     relevant_[number].emplace();
-    filter_->set_subscriber_role(number, {.team = team_number(bat.team), .owner = *bat.player});
+    filter_->set_subscriber_role(number, game::role_of(bat, false));
   }
   if (!looks_back()) return;
   const Vector2 heading = game::direction(game.keys_held(*bat.player));

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "game/net/peer/shared_game.h"
+#include "game/replication/filter_setup.h"
 #include "rti/wire/stream.h"
 
 namespace rink::game {
@@ -19,38 +21,11 @@ std::vector<physics::BodyKind> kinds_of(const Game& game) {
   return kinds;
 }
 
-/// The filter settings of a server.
-im::FilterSettings filter_settings(const Game& start, double cell_size) {
-  const physics::Field& field = start.world().spec().field;
-  im::FilterSettings settings{.world = {0.0, 0.0, field.length, field.width},
-                              .cell_size = cell_size};
-  for (const Entity& entity : start.entities())
-    if (entity.kind == physics::BodyKind::post)
-      settings.posts.push_back(
-          {start.position(entity.id).x(), start.position(entity.id).y(), entity.half_extent.x()});
-  return settings;
-}
-
-/// A bat is of its team and its player's.
-im::Role role_of(const Entity& entity, RelevantKinds always) {
-  im::Role role;
-  if (entity.player) role.owner = *entity.player;
-  if (entity.team != Team::none) role.team = static_cast<std::uint32_t>(entity.team);
-  role.is_always_relevant = always.has(entity.kind);
-  return role;
-}
-
 std::vector<im::Role> roles_of(const Game& start, RelevantKinds always) {
   std::vector<im::Role> roles(start.world().body_count());
-  for (const Entity& entity : start.entities()) roles[entity.id.index] = role_of(entity, always);
-  return roles;
-}
-
-double extent_max_of(const Game& start) {
-  double extent_max = 0.0;
   for (const Entity& entity : start.entities())
-    extent_max = std::max(extent_max, entity.half_extent.maxCoeff());
-  return extent_max;
+    roles[entity.id.index] = role_of(entity, always.has(entity.kind));
+  return roles;
 }
 
 /// Keeps replicas from `from`, which sends no more: they count as the `own` peer's, in `kept`,
@@ -64,26 +39,23 @@ void keep_for_now(PeerReplicas& picture, peer::PeerNumber from, peer::PeerNumber
   }
 }
 
-Drag drag_of(const physics::WorldSpec& spec) {
-  return {.pucks = spec.puck_drag, .bats = spec.bat_drag, .puck_friction = spec.puck_friction};
-}
-
 }  // namespace
 
-SharedInterest::SharedInterest(const Game& start, const InterestSettings& settings,
+SharedInterest::SharedInterest(const SharedGame& game, const InterestSettings& settings,
                                const peer::Peer& peer, const peer::Division& division, Send send)
     : settings_(settings),
       peer_(peer),
       division_(division),
       send_(std::move(send)),
-      interest_(settings.scheme, filter_settings(start, settings.cell_size), settings.policy,
-                roles_of(start, settings.always_relevant), extent_max_of(start)),
-      replicas_(interest_.sends_trajectories(), drag_of(start.world().spec()), kinds_of(start)),
-      places_(start.world().body_count(), Place::away) {
+      interest_(settings.scheme, filter_settings(game.scene(), settings.cell_size), settings.policy,
+                roles_of(game.start(), settings.always_relevant), game.extent_max()),
+      replicas_(interest_.sends_trajectories(), Drag::of(game.scene().world),
+                kinds_of(game.start())),
+      places_(game.start().world().body_count(), Place::away) {
   std::vector<peer::PeerNumber> all(settings.bats.size());
   std::iota(all.begin(), all.end(), peer::PeerNumber{0});
   set_members(all, settings.bats);
-  if (bat() != no_bat && !settings.is_late) seen_bat_ = start.position({bat()});
+  if (bat() != no_bat && !settings.is_late) seen_bat_ = game.start().position({bat()});
 }
 
 void SharedInterest::set_members(std::span<const peer::PeerNumber> members,

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "game/control/game.h"
 #include "game/net/peer/interest/key_counts.h"
 #include "game/net/peer/interest/peer_replicas.h"
 #include "game/net/peer/interest/sender_interest.h"
@@ -19,6 +18,8 @@
 #include "game/peer/peer.h"
 
 namespace rink::game {
+
+class SharedGame;
 
 /// The bat of a peer without a player.
 inline constexpr std::uint32_t no_bat = 0xffffffffu;
@@ -42,9 +43,9 @@ class SharedInterest {
   using Send =
       std::function<void(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content)>;
   /// There are as many members as bats. `peer` and `division` must outlive it, and may be made anew
-  /// in place (then call `begin_again`). Messages sent must arrive before later ones of the
-  /// protocol to the same peer.
-  SharedInterest(const Game& start, const InterestSettings& settings, const peer::Peer& peer,
+  /// in place (then call `begin_again`); `game` need not. Messages sent must arrive before later
+  /// ones of the protocol to the same peer.
+  SharedInterest(const SharedGame& game, const InterestSettings& settings, const peer::Peer& peer,
                  const peer::Division& division, Send send);
   SharedInterest(const SharedInterest&) = delete;
   SharedInterest& operator=(const SharedInterest&) = delete;
