@@ -9,9 +9,6 @@ namespace rink::game {
 
 namespace {
 
-/// Limit of side messages that wait for a listener.
-constexpr std::size_t deferred_max = 4096;
-
 bool is_here(const PeerLink& link) {
   return link.role == LinkRole::peer && link.is_open && !link.is_closed;
 }
@@ -43,9 +40,8 @@ bool PeerConversation::handle(rti::ConnectionId connection, PeerLink& link, Fram
 /// Without interest beyond the peers' parts there are no side messages; with it no sender is
 /// further ahead of its receivers than a window.
 bool PeerConversation::take_aside(const PeerLink& link, Frame frame) {
-  if (!roster_.terms().interest.is_wanted() || deferred_.size() >= deferred_max) return false;
-  deferred_.emplace_back(link.number, std::move(frame.content));
-  return !link.is_done;
+  return roster_.terms().interest.is_wanted() &&
+         deferred_.add(link.number, std::move(frame.content)) && !link.is_done;
 }
 
 bool PeerConversation::take_farewell(rti::ConnectionId connection, PeerLink& link,
@@ -110,11 +106,11 @@ bool PeerConversation::may_still_come(peer::PeerNumber from, const Patience& pat
 }
 
 void PeerConversation::deliver_deferred(const SideListener& listener) {
-  while (listener && !deferred_.empty()) {
-    auto [from, bytes] = std::move(deferred_.front());
-    deferred_.pop_front();
-    PeerLink* const link = links_.at(from);
-    if (!link || link->is_parted || listener(from, std::move(bytes))) continue;
+  while (listener) {
+    std::optional<DeferredAsides::Aside> aside = deferred_.take();
+    if (!aside) return;
+    PeerLink* const link = links_.at(aside->from);
+    if (!link || link->is_parted || listener(aside->from, std::move(aside->bytes))) continue;
     losses_.lose(*link, ExitStatus::failed,
                  name_of(*link) + " sent a side message that no peer sends");
   }

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "game/net/peer/network/deferred_asides.h"
 #include "game/net/peer/network/patience.h"
 #include "game/net/peer/network/peer_links.h"
 #include "game/net/peer/network/peer_losses.h"
@@ -39,7 +39,7 @@ class PeerConversation {
   void deliver_deferred(const SideListener& listener);
   /// Keeps a side message that came too early.
   void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
-    deferred_.emplace_back(from, std::move(bytes));
+    deferred_.keep(from, std::move(bytes));
   }
 
   /// As of peer::Mail.
@@ -58,8 +58,7 @@ class PeerConversation {
   PeerLinks& links_;
   const PeerRoster& roster_;
   PeerLosses& losses_;
-  std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
-      deferred_;           ///< side messages that were not handled yet
+  DeferredAsides deferred_;
   std::string sent_away_;  ///< why this newcomer was not admitted
 };
 

@@ -16,8 +16,6 @@ constexpr double rest_s_max = 5e-4;
 constexpr double farewells_s_max = 5.0;
 /// Looks at one rank between two looks at all.
 constexpr std::uint32_t looks_at_one = 64;
-/// Limit of side messages that wait for a listener.
-constexpr std::size_t waiting_asides_max = 4096;
 
 std::string name_of(peer::PeerNumber rank) { return "rank " + std::to_string(rank); }
 
@@ -109,8 +107,8 @@ void RankNetwork::take(peer::PeerNumber from, rti::RankMessage message) {
       others_[from].inbox.push_back(std::move(message.bytes));
       return;
     case RankChannel::aside:
-      if (!terms_.interest.is_wanted() || deferred_.size() >= waiting_asides_max) break;
-      return defer(from, std::move(message.bytes));
+      if (terms_.interest.is_wanted() && deferred_.add(from, std::move(message.bytes))) return;
+      break;
     case RankChannel::farewell:
       return take_farewell(from, message.bytes);
     case RankChannel::ending:
@@ -133,16 +131,12 @@ void RankNetwork::lose(peer::PeerNumber peer, ExitStatus status, const std::stri
   if (!error_) error_.emplace(status, name_of(peer) + what);
 }
 
-void RankNetwork::defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) {
-  deferred_.emplace_back(from, std::move(bytes));
-}
-
 void RankNetwork::deliver_deferred() {
-  while (receive_aside && !deferred_.empty()) {
-    auto [from, bytes] = std::move(deferred_.front());
-    deferred_.pop_front();
-    if (!receive_aside(from, std::move(bytes)))
-      lose(from, ExitStatus::failed, " sent a side message that no rank sends");
+  while (receive_aside) {
+    std::optional<DeferredAsides::Aside> aside = deferred_.take();
+    if (!aside) return;
+    if (!receive_aside(aside->from, std::move(aside->bytes)))
+      lose(aside->from, ExitStatus::failed, " sent a side message that no rank sends");
   }
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/net/peer/network/deferred_asides.h"
 #include "game/net/peer/network/session_error.h"
 #include "game/net/peer/network/session_network.h"
 #include "game/net/peer/ranks/rank_words.h"
@@ -52,7 +53,9 @@ class RankNetwork final : public SessionNetwork {
   void begin() override {}
   void note_window() override {}
   void rest_until(double time_s) override;
-  void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) override;
+  void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) override {
+    deferred_.keep(from, std::move(bytes));
+  }
   void leave(const Farewell& farewell) override;
 
   rti::TransportCounters sent_to(peer::PeerNumber member) const override {
@@ -91,7 +94,7 @@ class RankNetwork final : public SessionNetwork {
   Terms terms_;
   std::vector<PeerInfo> infos_;
   std::vector<Other> others_;  ///< by rank; the own one has left from the start
-  std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> deferred_;
+  DeferredAsides deferred_;
   std::optional<SessionError> error_;  ///< the first loss, after which the session cannot go on
   double attend_s_ = 0.0;              ///< when before_wait is due again
   std::uint64_t bytes_sent_ = 0, collectives_ = 0;
