@@ -45,19 +45,6 @@ Game::ShownScore shown_score(const peer::Scoring& scoring) {
   return shown;
 }
 
-/// Or a greeting could name bats that are not there, or another node's.
-void require_bats_of_their_own(std::span<const PeerInfo> nodes, std::uint32_t bat_count) {
-  std::uint64_t free = 0;
-  for (std::size_t node = 0; node < nodes.size(); ++node) {
-    const PeerInfo& info = nodes[node];
-    if (info.first_bat < free || info.first_bat > bat_count ||
-        info.bat_count > bat_count - info.first_bat)
-      throw peer::ProtocolError("peer " + std::to_string(node) +
-                                " plays bats that are not there, or another's");
-    free = std::uint64_t{info.first_bat} + info.bat_count;
-  }
-}
-
 /// If it fails, the other nodes that wait are told why there is no game.
 void gather(SessionNetwork& network) {
   try {
@@ -104,8 +91,7 @@ void Node::meet() {
     throw SessionError(ExitStatus::not_admitted,
                        "the first node gave terms that these nodes do not have: expected " +
                            scheme + " without standby copies");
-  require_bats_of_their_own(std::span(network_->peer_infos()).first(terms().peer_count),
-                            game_.bat_count());
+  game_.players(terms(), network_->peer_infos());  // or a greeting could name another's bats
   players_.emplace(game_, first_player(), player_count());
   if (settings_.hosting) match_.emplace(*settings_.hosting);
   SeatTable table(game_.bat_count(), settings_.hosting ? 0.0 : settings_.absence_s);

@@ -191,7 +191,6 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
   return hash.value();
 }
 
-/// The players of the first peers.
 std::vector<peer::Player> SharedGame::players(const Terms& terms,
                                               std::span<const PeerInfo> peer_infos) const {
   std::vector<peer::Player> players;

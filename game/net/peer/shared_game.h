@@ -99,6 +99,9 @@ class SharedGame {
   /// True if all keys are known before the start; then no player can be live.
   bool has_keys() const { return !keys_.empty(); }
   const Scene& scene() const { return scene_; }
+  /// The players of the first peers. Throws peer::ProtocolError naming a bat that is not there, or
+  /// that two peers play.
+  std::vector<peer::Player> players(const Terms& terms, std::span<const PeerInfo> peer_infos) const;
   /// The widest half of a body's bounding box [m].
   double extent_max() const { return extent_max_; }
   /// The keys that all know.
@@ -135,7 +138,6 @@ class SharedGame {
   double first_halo(double window) const;
   std::optional<peer::GoalRules> goal_rules(double window) const;
   std::vector<peer::Key> thrusts() const;
-  std::vector<peer::Player> players(const Terms& terms, std::span<const PeerInfo> peer_infos) const;
   std::vector<peer::Seat> seats(const peer::Player& player) const;
   std::vector<InputEvent> keys_with(std::span<const peer::Handover> logs) const;
   std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until,
