@@ -99,4 +99,23 @@ physics::Motion motion_of(const Trajectory& trajectory, const Resistance& own);
 /// far off already.
 double holds_until(const physics::World& world, physics::BodyId body, const Trajectory& sent);
 
+/// The trajectory of a body that its receivers were sent last, as the sender keeps it.
+struct SentTrajectory {
+  Trajectory trajectory;
+  double until_s = -1.0;  ///< up to there it holds, if nothing happens
+
+  /// After an event: whether the next one is due at world.now(). An event that changes almost
+  /// nothing, as those of bodies pressed to each other, makes none due; one that would be so within
+  /// a tenth of a second is due now.
+  bool must_be_renewed(const physics::World& world, physics::BodyId body) {
+    constexpr double worthwhile_s = 0.1;
+    until_s = holds_until(world, body, trajectory);
+    return until_s < world.now() + worthwhile_s;
+  }
+  void renew(const physics::World& world, physics::BodyId body) {
+    trajectory = trajectory_of(world, body);
+    until_s = holds_until(world, body, trajectory);
+  }
+};
+
 }  // namespace rink::game

@@ -85,32 +85,27 @@ class OnEvent : public UpdatePolicy {
     assert(entity.id.index < last_sent_.size() && "it was written before");
     LastSent& last_sent = last_sent_[entity.id.index];
     const std::uint32_t version = game.world().motion_version(entity.id);
-    if (version == last_sent.version && game.now() <= last_sent.until_s) return false;
-    // An event that changes almost nothing, as those of bodies pressed to each other, is not sent.
+    if (version == last_sent.version && game.now() <= last_sent.sent.until_s) return false;
     last_sent.version = version;
-    last_sent.until_s = holds_until(game.world(), entity.id, last_sent.trajectory);
-    return last_sent.until_s < game.now() + worthwhile_s;
+    return last_sent.sent.must_be_renewed(game.world(), entity.id);
   }
   double quiet_until(const Game&, const Entity& entity) const override {
-    return entity.kind == physics::BodyKind::post ? forever : last_sent_[entity.id.index].until_s;
+    return entity.kind == physics::BodyKind::post ? forever
+                                                  : last_sent_[entity.id.index].sent.until_s;
   }
 
   void write(const Game& game, const Entity& entity, rti::Writer& value) override {
     if (last_sent_.size() <= entity.id.index) last_sent_.resize(entity.id.index + 1);
     LastSent& last_sent = last_sent_[entity.id.index];
     last_sent.version = game.world().motion_version(entity.id);
-    last_sent.trajectory = trajectory_of(game.world(), entity.id);
-    last_sent.until_s = holds_until(game.world(), entity.id, last_sent.trajectory);
-    exchange(value, last_sent.trajectory);
+    last_sent.sent.renew(game.world(), entity.id);
+    exchange(value, last_sent.sent.trajectory);
   }
 
  private:
-  static constexpr double worthwhile_s =
-      0.1;  ///< a trajectory that must be replaced so soon is replaced now
   struct LastSent {
     std::uint32_t version = 0;
-    double until_s = 0.0;
-    Trajectory trajectory;
+    SentTrajectory sent;
   };
   std::vector<LastSent> last_sent_;  ///< by entity
 };

@@ -170,20 +170,16 @@ const SenderInterest::LastSent& SenderInterest::last_sent_of(const physics::Part
                                                              std::uint32_t window) {
   LastSent& last_sent = last_sent_[body];
   if (last_sent.window == window) return last_sent;
-  constexpr double worthwhile_s = 0.1;  // a state that must be replaced so soon is replaced now
   const bool is_new = last_sent.window == 0xffffffffu ||
                       last_sent.window + 1 != window;  // others may have sent it meanwhile
   last_sent.window = window;
   if (sends_trajectories_) {
     const physics::World& here = world.inside();
     const physics::BodyId id = world.inside({body});
-    if (!is_new) last_sent.until_s = holds_until(here, id, last_sent.trajectory);
-    last_sent.is_due = is_new || last_sent.until_s < world.now() + worthwhile_s;
-    if (last_sent.is_due)
-      last_sent.trajectory = trajectory_of(here, id),
-      last_sent.until_s = holds_until(here, id, last_sent.trajectory);
+    last_sent.is_due = is_new || last_sent.sent.must_be_renewed(here, id);
+    if (last_sent.is_due) last_sent.sent.renew(here, id);
     std::vector<std::byte> value;
-    encode(value, last_sent.trajectory);
+    encode(value, last_sent.sent.trajectory);
     last_sent.coded.clear();
     TrajectoryCodec().encode(value, world.now(), last_sent.coded);
   } else {

@@ -82,8 +82,7 @@ class SenderInterest {
 
  private:
   struct LastSent {
-    Trajectory trajectory;
-    double until_s = -1.0;
+    SentTrajectory sent;
     std::uint32_t window = 0xffffffffu;  ///< in which it was last looked at
     bool is_due = false;
     std::vector<std::byte> coded;
