@@ -213,8 +213,7 @@ void Node::pass_on_keys() {
   if (session_ == nullptr) return;
   for (auto& [owner, keys] : players_->take(*session_))
     if (owner != number()) say(*network_, owner, NodeMessage::keys, bytes_of(std::move(keys)));
-    else
-      for (const peer::Press& key : keys.words) session_->peer().receive(owner, key);
+    else session_->peer().receive(owner, keys.words);
 }
 
 void Node::decide_seats(std::uint64_t instant, double now_s) {
@@ -293,8 +292,8 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
     case NodeMessage::keys: {
       const auto keys = message_from<ListOf<peer::Press>>(content);
       if (!keys) return false;
-      if (session_ != nullptr)  // else it was pressed as a match ended here
-        for (const peer::Press& key : keys->words) session_->peer().receive(from, key);
+      // Else they were pressed as a match ended here.
+      if (session_ != nullptr) session_->peer().receive(from, keys->words);
       return true;
     }
     case NodeMessage::match_wish: {

@@ -81,9 +81,9 @@ void Peer::receive(PeerNumber from, Claims claims) {
   if (is_sound(from, claims, window_.end)) check_.receive(from, std::move(claims));
 }
 
-void Peer::receive(PeerNumber from, const Press& press) {
-  if (!is_sound(from, press)) return;
-  players_.receive_early(from, press);
+void Peer::receive(PeerNumber from, std::span<const Press> presses) {
+  for (const Press& press : presses)
+    if (is_sound(from, press)) players_.receive_early(from, press);
   const bool is_prepared = now() == window_.start;  // and not played yet
   if (is_prepared) players_.stamp_unseen(window_.start, keys_);
 }

@@ -103,8 +103,8 @@ class Peer {
   /// As Halos::keep_to_neighbours: claims and handovers go to neighbours, and come from them.
   void keep_to_neighbours(bool is_late) { halos_.keep_to_neighbours(is_late); }
   void receive(PeerNumber from, Claims claims);
-  /// As LivePlayers::receive_early; also of an own player, and at any time.
-  void receive(PeerNumber from, const Press& press);
+  /// As LivePlayers::receive_early; also of own players, and at any time.
+  void receive(PeerNumber from, std::span<const Press> presses);
   const Verdict& judge();
   void receive(PeerNumber from, const Verdict& verdict);
   Outcome conclude();

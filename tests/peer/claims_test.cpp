@@ -186,6 +186,20 @@ TEST(LivePlayers, FeelKeysThatCameEarlyAtOnceIfNobodyElseHasTheBat) {
   EXPECT_THAT(far.keys.later(), IsEmpty()) << "each is stamped once";
 }
 
+/// A message may hold as many as its sender likes: time that grows with their square would stop the
+/// session.
+TEST(LivePlayers, StampAHundredThousandEarlyKeysInOrder) {
+  constexpr std::uint32_t bat = 3, count = 100'000;
+  Side far(meeting(), 0, 0.01);
+  far.players.seat({.bat = bat, .peer = 1, .period = 0.0, .puck_count = 0});
+  for (std::uint32_t k = 0; k < count; ++k)
+    far.players.receive_early(1, {bat, {1e-5 * k, 0.0}, 2, 0.0});
+  far.players.stamp_unseen(0.0, far.keys);
+  ASSERT_EQ(far.keys.due().size(), count);
+  EXPECT_TRUE(
+      std::ranges::is_sorted(far.keys.due(), {}, [](const Key& key) { return key.thrust.x(); }));
+}
+
 TEST(LivePlayers, KeepEarlyKeysOfABatOnItsWayForOneWindow) {
   constexpr std::uint32_t bat = 3;
   for (const int waits : {1, 2}) {

@@ -105,7 +105,8 @@ class LiveGame {
         if (!comes_early_) wanted = std::max(wanted, now + uniform(random_, -1.0, 3.0) * window_);
         const Press press{observation.bat, Vector2(x, y) * 6.0,
                           static_cast<std::uint8_t>(1 + counts.observations % 200), wanted};
-        if (comes_early_) assembly_.peers()[observation.owner].receive(peer.number(), press);
+        if (comes_early_)
+          assembly_.peers()[observation.owner].receive(peer.number(), std::span(&press, 1));
         else peer.players().press(observation.owner, press);
         wishes_[observation.bat].push_back({press, now, peer.end()});
         counts.foreign_keys += owner != peer.number();

@@ -76,13 +76,14 @@ bool LivePlayers::is_unseen(std::uint32_t bat) const {
 }
 
 void LivePlayers::stamp_unseen(double start, TimedKeys& keys) {
+  std::vector<Key> stamped;
   std::erase_if(early_, [&](const Early& each) {
     const Press& press = each.press;
     if (press.time > start || !plays(each.from, press.bat) || !is_unseen(press.bat)) return false;
-    const Key key{start, press.bat, press.thrust, press.input};
-    keys.repeat_with({&key, 1});
+    stamped.push_back({start, press.bat, press.thrust, press.input});
     return true;
   });
+  if (!stamped.empty()) keys.repeat_with(stamped);
 }
 
 void LivePlayers::stamp_early(double end, TimedKeys& keys) {
