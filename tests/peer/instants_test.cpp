@@ -53,6 +53,18 @@ TEST(WindowVerdicts, AskAboutCrowdedInstantsBeforeAnybodyPlaysAgain) {
   EXPECT_EQ(outcome, Outcome::final) << "the twenty came at another time";
 }
 
+TEST(WindowVerdicts, DoNotSettleAnInstantOfWhichOneSaysNothing) {
+  ThreeVerdicts three;
+  const Verdict first = with_crowd(50), second{.at_once_max = 20};
+  for (const bool says_nothing : {true, false}) {
+    EXPECT_EQ(three.conclude({first, second, {}}), Outcome::repeat);
+    const Outcome outcome = three.conclude(
+        {with_report(first, {60, 50, 50, 7}),
+         says_nothing ? second : with_report(second, {5, 4, 4, 8}), with_report({}, {})});
+    EXPECT_EQ(outcome, says_nothing ? Outcome::repeat : Outcome::final);
+  }
+}
+
 TEST(WindowVerdicts, AskAboutEachUnsolvedInstantOnce) {
   ThreeVerdicts three;
   Verdict first{.at_once_max = 1, .critical = {{0.25, 1, true}, {0.5, 1, true}}}, second = first;

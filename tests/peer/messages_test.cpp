@@ -196,6 +196,15 @@ TEST(Peer, NamesWhoCountsOtherwise) {
   EXPECT_THAT(two.left.accusation().text(), testing::StartsWith("peer 1 counts"));
 }
 
+TEST(Peer, NamesWhoReportsOnOtherInstantsThanAllWereAskedAbout) {
+  TwoPeers two;
+  two.right.receive(0, two.left.claims_for(1)), two.left.receive(1, two.right.claims_for(0));
+  Verdict verdict = two.right.judge();
+  verdict.reports.push_back({});
+  two.left.receive(1, verdict);
+  EXPECT_EQ(two.left.accusation().text(), "peer 1 reports on 1 instants instead of 0");
+}
+
 TEST(Peer, NamesWhoHandsOverABodyThatIsNotItsOwn) {
   TwoPeers two;
   const std::uint32_t body = two.left.owned().front();

@@ -195,7 +195,9 @@ bool WindowVerdicts::is_settled(const AskedInstant& asked, std::size_t place) co
   bool are_few = !asked.is_unsolved, are_same = true;
   const InstantReport* first = nullptr;
   for (PeerNumber peer = 0; peer < verdicts_.size(); ++peer) {
-    if (place >= verdicts_[peer].reports.size()) continue;
+    if (!halos_.is_present(peer)) continue;
+    // Who says nothing of it may have had events then: Peer names it.
+    if (place >= verdicts_[peer].reports.size()) return false;
     const InstantReport& report = verdicts_[peer].reports[place];
     if (report.own == 0) continue;
     if (first == nullptr) first = &report;
