@@ -217,9 +217,13 @@ void Subdomain::drop(std::uint32_t body) {
   journal_.rooms_of[place] = 0;
   engine().drop(place);
   slots_.release(body);
+  has_dropped_ = true;
 }
 
+/// Contacts name slots: one of a dropped body would become that of whoever comes into its slot.
 std::uint32_t Subdomain::make_room(std::uint32_t body) {
+  if (std::exchange(has_dropped_, false) && !engine().rest_contacts().empty())
+    engine().drop_blank_contacts();
   std::optional<BodySlots::Room> room = slots_.room_for(body);
   if (!room) spread(body), room = slots_.room_for(body);
   assert(room);

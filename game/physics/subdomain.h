@@ -133,7 +133,8 @@ class Subdomain {
   PartWorld part_;
   std::optional<BeforeImages> before_;  ///< of the engine in `world_`, which spread() makes anew
   Journal journal_;
-  WorldMark mark_;  ///< when the window began
+  WorldMark mark_;            ///< when the window began
+  bool has_dropped_ = false;  ///< since the last body was put into a blank slot
 };
 
 /// World::hash() of the larger world, if all of it that is not removed is there.

@@ -121,6 +121,30 @@ TEST(Subdomain, HasOnlyWhatIsPutThereAndForgetsWhatIsDropped) {
   EXPECT_EQ(portion.world().counters().events(), events);
 }
 
+/// Contacts are listed by slots, of which a dropped body's is the next one's.
+TEST(Subdomain, ForgetsTheContactsOfWhatIsDroppedBeforeAnotherComes) {
+  World world(rink_of(4.0, 2.0));
+  for (const double x : {1.0, 1.25, 1.5, 3.0})
+    world.add(BatSpec{.position = {x, 1.0}, .half_extent = {0.125, 0.125}});
+  Subdomain portion(world.spec(), world.body_count());
+  for (const std::uint32_t body : {0u, 1u, 2u}) portion.put(body, Subdomain::state_in(world, body));
+  const auto contact = [](std::uint32_t low, std::uint32_t high) {
+    return RestContact{.low = low,
+                       .high = high,
+                       .axis = 0,
+                       .pull_time = 1e300,
+                       .force = 0.0,
+                       .turn_time = 1e300,
+                       .age = {}};
+  };
+  portion.set_rest_contacts({contact(0, 1), contact(1, 2)});
+  portion.drop(2);
+  portion.put(3, Subdomain::state_in(world, 3));
+  ASSERT_EQ(portion.rest_contacts().size(), 1u);
+  EXPECT_EQ(portion.rest_contacts().front().low, 0u);
+  EXPECT_EQ(portion.rest_contacts().front().high, 1u);
+}
+
 TEST(Subdomain, KnowsHowABodyWasBeforeTheWindow) {
   World world = whole_of(3);
   Subdomain portion(world.spec(), world.body_count());

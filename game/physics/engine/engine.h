@@ -101,6 +101,8 @@ class Engine {
   const std::vector<RestContact>& rest_contacts() const { return rests_.rest_contacts(); }
   /// In any order; whoever is in one must be there.
   void set_rest_contacts(std::vector<RestContact> rest_contacts);
+  /// Those of dropped bodies end, before another body may be put into their slots.
+  void drop_blank_contacts();
   /// All in rest contact or in one jam with `body`, directly or through others, itself first.
   std::vector<std::uint32_t> group_of(std::uint32_t body) const;
   WorldMark mark() const;

@@ -72,6 +72,21 @@ void Engine::set_rest_contacts(std::vector<RestContact> rest_contacts) {
   rests_.restore(std::move(rest_contacts));
 }
 
+void Engine::drop_blank_contacts() {
+  const auto is_blank = [&](Partner p) {
+    return p < bodies_.count() && bodies_[p].is(Body::removed);
+  };
+  std::vector<RestContact> left = rests_.rest_contacts();
+  const auto blank = std::stable_partition(left.begin(), left.end(), [&](const RestContact& rest) {
+    return !is_blank(rest.low) && !is_blank(rest.high);
+  });
+  for (auto rest = blank; rest != left.end(); ++rest)
+    for (const Partner p : {rest->low, rest->high})
+      if (p < bodies_.count() && !is_blank(p)) require_prediction(p);
+  left.erase(blank, left.end());
+  rests_.restore(std::move(left));
+}
+
 std::vector<std::uint32_t> Engine::group_of(std::uint32_t body) const {
   if ((bodies_[body].flags & (Body::held | Body::frozen)) == 0) return {body};
   std::vector<std::uint32_t> group = rests_.group(body, Body::held);
