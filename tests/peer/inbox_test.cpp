@@ -124,6 +124,26 @@ TEST(Inbox, BoundsWhatIsSaidInARecovery) {
   EXPECT_THAT(receiver.inbox.losses().last(), testing::HasSubstr("peer 1 speaks of losses"));
 }
 
+/// Peer 1 asks for peer 2, which answers, and says so in the end.
+TEST(Inbox, GivesUpWhoBeginsRecoveriesOfNobody) {
+  Receiver receiver(true);
+  const auto word = [](Answer answer) { return written(Loss{.questions = {{2, answer}}}); };
+  const auto recover = [&] {
+    receiver.mail.waiting = {word(Answer::open)};
+    EXPECT_THROW(receiver.inbox.received<Verdict>(1, receiver.now), LossTold);
+    if (receiver.inbox.losses().is_gone(1)) return;
+    for (const PeerNumber from : {1u, 2u})
+      receiver.inbox.learns_of_loss(from, word(Answer::heard), receiver.now);
+    EXPECT_TRUE(receiver.inbox.has_settled(receiver.now));
+    receiver.inbox.recovered();
+  };
+  for (std::uint32_t alarm = 0; alarm < Inbox::alarms_max; ++alarm) recover();
+  EXPECT_THAT(receiver.inbox.losses().gone(), testing::IsEmpty());
+  recover();
+  EXPECT_THAT(receiver.inbox.losses().gone(), ElementsAre(1u));
+  EXPECT_EQ(receiver.inbox.losses().last(), "peer 1 asks again and again for peers that answer");
+}
+
 TEST(Inbox, EndsASessionWithoutReplicas) {
   Receiver receiver(false);
   receiver.mail.waiting = {written(Loss{.step = 0, .gone = {2}})};

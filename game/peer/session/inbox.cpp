@@ -90,7 +90,7 @@ bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes,
   // Of two peers neither has anybody else to ask.
   if (State::is_in(loss.gone, settings_.number) || (is_missed && now.members.size() <= 2))
     halt("peer " + std::to_string(from) + " has given this one up: it halts, others may go on");
-  const bool is_news = losses_.is_news(from, loss);
+  const bool is_news = losses_.is_news(from, loss), has_begun = must_recover_;
   for (const PeerNumber peer : loss.gone)
     if (const bool has_finished = State::is_in(loss.finished, peer);
         has_finished || !losses_.is_gone(peer))
@@ -98,8 +98,23 @@ bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes,
            "peer " + std::to_string(peer) + " is gone, according to peer " + std::to_string(from),
            has_finished);
   losses_.hear(from, std::move(loss));
+  const bool is_alarm = is_news && !has_begun && !must_recover_;  // a question alone
   must_recover_ = must_recover_ || is_news;
+  if (is_alarm) count_alarm(from);
   return is_news;
+}
+
+/// Who passes a question on is counted by those that hear it there first, but never more often than
+/// it has counted others itself: it gives up the one that began before it is given up for that one.
+void Inbox::count_alarm(PeerNumber from) {
+  if (++alarms_.at(from) > alarms_max) give_up(from, "asks again and again for peers that answer");
+}
+
+void Inbox::recovered() {
+  must_recover_ = false;
+  std::ranges::fill(said_, 0);
+  const std::size_t gone = losses_.gone().size();
+  if (std::exchange(gone_before_, gone) != gone) std::ranges::fill(alarms_, 0);
 }
 
 void Inbox::lose(PeerNumber peer, const std::string& what, bool has_finished) {

@@ -73,6 +73,10 @@ class Inbox {
   void count_word(PeerNumber from) {
     if (++said_.at(from) > said_max) give_up(from, "speaks of losses without end");
   }
+  /// So many recoveries without a loss may a member begin after the last one. Who misses a peer
+  /// begins one that ends with a loss, that peer's or its own: more are of one that asks for peers
+  /// which answer, and would stop the session for ever.
+  static constexpr std::uint32_t alarms_max = 16;
   /// When all agree on losses: true if that is all, false if some are given up now.
   bool has_settled(const State& now);
 
@@ -89,16 +93,13 @@ class Inbox {
   const Validator& validator() const { return validator_; }
   /// True from a loss on until `recovered`.
   bool must_recover() const { return must_recover_; }
-  void recovered() {
-    must_recover_ = false;
-    std::ranges::fill(said_, 0);
-  }
+  void recovered();
   bool is_newcomer() const { return is_newcomer_; }
   void enter() { is_newcomer_ = false; }
   /// A newcomer gets to know the state.
   void begin(const State& now);
   void make_room(PeerNumber slots) {
-    losses_.make_room(slots), told_.resize(slots), said_.resize(slots);
+    losses_.make_room(slots), told_.resize(slots), said_.resize(slots), alarms_.resize(slots);
   }
   /// The state at the step before `now`, which must outlive this, from here on.
   void remember(const State& before) { before_ = &before; }
@@ -109,6 +110,7 @@ class Inbox {
 
  private:
   void lose(PeerNumber peer, const std::string& what, bool has_finished);
+  void count_alarm(PeerNumber from);
   void await_result(PeerNumber from, std::uint32_t result, const State& now);
 
   const SessionSettings& settings_;
@@ -119,7 +121,9 @@ class Inbox {
   const State* before_ = nullptr;
   std::vector<std::vector<std::uint8_t>> told_;  ///< by peer: of losses, at last
   std::vector<std::uint32_t> said_;              ///< by peer: how many words, while all recover
-  std::vector<PeerNumber> confirmed_;            ///< who has the same result
+  std::vector<std::uint32_t> alarms_;  ///< by peer: recoveries that it began since the last loss
+  std::size_t gone_before_ = 0;        ///< how many were lost at the last recovery
+  std::vector<PeerNumber> confirmed_;  ///< who has the same result
   bool must_recover_ = false, is_newcomer_;
 };
 

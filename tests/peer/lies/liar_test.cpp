@@ -194,6 +194,43 @@ TEST(Liar, WhoseClaimsNobodyCanAgreeWithIsNamedAndTheOthersGoOn) {
       << losses[0] << losses[2];
 }
 
+/// Its own engine is honest, and so takes part in each recovery that it begins: the window would be
+/// undone for ever. Where it asks one peer alone, this one passes the question on, and must not be
+/// taken for the liar.
+TEST(Liar, WhoAsksInEachWindowForAPeerThatAnswersIsNamedAndTheOthersGoOn) {
+  constexpr std::uint64_t lies_max = 600;
+  for (const bool asks_all : {true, false}) {
+    Play play(0, 4, 30);
+    play.is_live = true;
+    play.office().patience = std::chrono::seconds(20);
+    std::uint64_t lies = 0, last = 0;
+    play.on_the_way = [&](End peer, std::vector<std::uint8_t>& bytes) {
+      Claims claims;
+      if (peer != 1 || !read(bytes, claims) || claims.window < 5 || lies == lies_max) return;
+      if (!asks_all && std::exchange(last, claims.window) == claims.window) return;
+      bytes = written(Loss{.step = claims.window, .questions = {{3, Answer::open}}});
+      ++lies;
+    };
+    std::array<std::string, 4> losses;
+    std::array<std::vector<PeerNumber>, 4> gone;
+    play.before_window = [&](Session& session, End peer) {
+      losses[peer] = session.last_loss(), gone[peer] = session.lost();
+    };
+    play.run();
+    EXPECT_GT(lies, 0u);
+    EXPECT_LT(lies, lies_max);
+    for (const End honest : {0, 2, 3}) {
+      EXPECT_EQ(play.fates[honest], Fate::done) << play.messages[honest];
+      EXPECT_EQ(gone[honest], (std::vector<PeerNumber>{1}));
+    }
+    EXPECT_NE((losses[0] + losses[2] + losses[3])
+                  .find("peer 1 asks again and again for peers that answer"),
+              std::string::npos)
+        << losses[0] << losses[2] << losses[3];
+    EXPECT_TRUE(play.expect_truth_of_logs());
+  }
+}
+
 /// Who believed it would keep a number that nobody has, which the next newcomer gets.
 TEST(Liar, WhoTellsTheLossOfAPeerThatNeverWasIsNamedAndTheOthersGoOn) {
   Play play(0, 3, 30);
