@@ -30,6 +30,7 @@ struct Ranks::Requests {
     RankMessage message;
     MPI_Request request = MPI_REQUEST_NULL;
     bool is_coming = false;
+    std::optional<RankMessage> put_back;
   };
   std::deque<Outgoing> outgoing;   ///< a deque, for MPI keeps the addresses
   std::vector<Incoming> incoming;  ///< by rank
@@ -90,6 +91,7 @@ std::optional<RankMessage> Ranks::receive(std::uint32_t from) {
   assert(from < count_ && from != number_);
   unsent();
   Requests::Incoming& incoming = requests_->incoming[from];
+  if (incoming.put_back) return std::exchange(incoming.put_back, std::nullopt);
   if (!incoming.is_coming) {
     int is_there = 0;
     MPI_Message message = MPI_MESSAGE_NULL;
@@ -108,6 +110,11 @@ std::optional<RankMessage> Ranks::receive(std::uint32_t from) {
   if (!is_whole) return std::nullopt;
   incoming.is_coming = false;
   return std::exchange(incoming.message, {});
+}
+
+void Ranks::put_back(std::uint32_t from, RankMessage message) {
+  assert(from < count_ && !requests_->incoming[from].put_back);
+  requests_->incoming[from].put_back = std::move(message);
 }
 
 void Ranks::begin_gathering(std::span<const std::uint8_t> own) {

@@ -41,6 +41,8 @@ class Ranks {
   void send(std::uint32_t to, RankMessage message);
   /// The next message of `from`, if all of it has arrived.
   std::optional<RankMessage> receive(std::uint32_t from);
+  /// The last one that was received of `from` is the next again, for another reader.
+  void put_back(std::uint32_t from, RankMessage message);
 
   /// Begins a collective: all ranks contribute equally many bytes, one gathering at a time, in the
   /// same order (MPI_Iallgather).

@@ -18,6 +18,7 @@ Ranks::Ranks() {
 Ranks::~Ranks() = default;
 void Ranks::send(std::uint32_t, RankMessage) {}
 std::optional<RankMessage> Ranks::receive(std::uint32_t) { return std::nullopt; }
+void Ranks::put_back(std::uint32_t, RankMessage) {}
 void Ranks::begin_gathering(std::span<const std::uint8_t>) {}
 std::optional<std::span<const std::uint8_t>> Ranks::gathered() { return std::nullopt; }
 bool Ranks::is_gathering() const { return false; }

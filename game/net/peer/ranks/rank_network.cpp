@@ -112,6 +112,9 @@ void RankNetwork::take(peer::PeerNumber from, rti::RankMessage message) {
     case RankChannel::farewell:
       return take_farewell(from, message.bytes);
     case RankChannel::ending:
+      // It also says how: whoever ends this process reads that.
+      others_[from].has_left = true;
+      ranks_.put_back(from, std::move(message));
       return lose(from, ExitStatus::connection_lost, " has ended");
   }
   lose(from, ExitStatus::failed, " sent what is no message");
