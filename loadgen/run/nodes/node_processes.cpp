@@ -70,6 +70,7 @@ class NodeProcesses {
 
     std::string who;
     game::Process process;
+    bool is_of_bots = false, is_noted = false;  ///< the latter: in `failed_`
   };
 
   std::uint32_t count() const { return cell_.parameters.nodes; }
@@ -79,6 +80,7 @@ class NodeProcesses {
   void start_node(const std::string& first);
   void start_bots(std::size_t node);
   void await();
+  void note_failures();
   [[noreturn]] void name_failure() const;
   void add_processor_times(RunRecord& record) const;
   std::vector<NodeResults> results() const;
@@ -89,6 +91,7 @@ class NodeProcesses {
   const std::filesystem::path& key_log_;
   const Cell& cell_;
   std::deque<Named> processes_;         ///< the nodes', then in the same order those of their bots
+  std::vector<const Named*> failed_;    ///< in the order in which that was seen
   std::vector<std::uint32_t> numbers_;  ///< of nodes, by process
 };
 
@@ -125,14 +128,13 @@ void NodeProcesses::start_bots(std::size_t node) {
       bots_arguments(experiment_, cell_, key_log_, address, file_of(node, ".bots.json"));
   set_flag(arguments, "--count", std::to_string(clients));
   arguments.insert(arguments.end(), {"--first", std::to_string(first)});
-  processes_.emplace_back("the bots of " + server.who, settings_.bots, arguments);
+  processes_.emplace_back("the bots of " + server.who, settings_.bots, arguments).is_of_bots = true;
 }
 
 /// Returns when all have ended well.
 void NodeProcesses::await() {
   const double limit_s = experiment_.warm_up_s + experiment_.duration_s + settings_.join_limit_s;
   auto deadline = after(limit_s);
-  bool has_failed = false;
   const auto running = [this] { return std::ranges::find_if(processes_, &Named::runs); };
   for (auto next = running(); next != processes_.end() && Clock::now() <= deadline;
        next = running()) {
@@ -140,30 +142,32 @@ void NodeProcesses::await() {
     next->process.attend(look_interval);
     for (Named& each : processes_)
       if (each.runs()) each.process.attend(milliseconds(0));
-    const bool fails = std::ranges::any_of(processes_, &Named::has_failed);
-    if (fails && !has_failed) deadline = std::min(deadline, after(survivor_limit_s));
-    has_failed = fails;
+    const bool had_failed = !failed_.empty();
+    note_failures();
+    if (!failed_.empty() && !had_failed) deadline = std::min(deadline, after(survivor_limit_s));
   }
-  if (has_failed) name_failure();
+  if (!failed_.empty()) name_failure();
   if (const auto late = running(); late != processes_.end())
     throw Failure{with_stderr_tail(late->who + " had not ended after " + decimal(limit_s) + " s",
                                    late->process)};
 }
 
-/// A node that failed by itself is named before one that ended for its sake, and before bots.
+void NodeProcesses::note_failures() {
+  for (Named& each : processes_)
+    if (each.has_failed() && !std::exchange(each.is_noted, true)) failed_.push_back(&each);
+}
+
+/// Named is the first node that failed by itself; else the first bots that did so, which may be
+/// because of their node; else the first that ended for another's sake.
 void NodeProcesses::name_failure() const {
-  std::vector<const Named*> failed;
-  for (const Named& each : processes_)
-    if (each.has_failed()) failed.push_back(&each);
-  assert(!failed.empty());
-  const auto guilty = std::ranges::find_if(failed, [](const Named* each) {
-    return each->process.ending()->exit_status != node_is_gone;
+  assert(!failed_.empty());
+  const Named& named = **std::ranges::min_element(failed_, {}, [](const Named* each) {
+    return each->process.ending()->exit_status == node_is_gone ? 2 : each->is_of_bots ? 1 : 0;
   });
-  const Named& named = **(guilty == failed.end() ? failed.begin() : guilty);
   throw Failure{with_stderr_tail(named.who + " " + named.process.ending()->text(), named.process) +
-                (failed.size() == 1 ? ""
-                                    : "; " + std::to_string(failed.size() - 1) +
-                                          " other processes ended after it")};
+                (failed_.size() == 1 ? ""
+                                     : "; " + std::to_string(failed_.size() - 1) +
+                                           " other processes ended after it")};
 }
 
 std::vector<NodeResults> NodeProcesses::results() const {

@@ -95,6 +95,21 @@ TEST_F(NodeProcessesTest, NameWhoIsKilled) {
   EXPECT_THAT(record->why_invalid, HasSubstr("node process 1 was ended by signal 9"));
 }
 
+/// The first node ends for the other's sake, with a status of its own.
+TEST_F(NodeProcessesTest, NameWhoFailsFirst) {
+  const std::filesystem::path script = folder_ / "serve.sh";
+  const std::string serve = settings_.serve.string();
+  std::ofstream(script) << "#!/bin/sh\ncase \"$*\" in\n*--join*) (sleep 1; kill -9 $$) & exec "
+                        << serve << " \"$@\";;\n*) " << serve
+                        << " \"$@\"; sleep 0.5; exit 5;;\nesac\n";
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  settings_.serve = script;
+  experiment_.duration_s = 20.0;
+  const auto record = run();
+  ASSERT_TRUE(record);
+  EXPECT_THAT(record->why_invalid, HasSubstr("node process 1 was ended by signal 9"));
+}
+
 TEST_F(NodeProcessesTest, NameAFirstOneThatDoesNotListen) {
   settings_.serve = "/bin/false";
   const auto record = run();
