@@ -19,6 +19,7 @@ WIDTH = 118
 POINTS_WANTED = 5  # on either side of an error, as loadgen/measure/equal_error.h has it
 THRESHOLD = 0.005  # of dead reckoning in the table [m]
 BEGIN, END = "<!-- measured by ./rink results -->", "<!-- end of what is measured -->"
+FORETOLD, TOO_FEW = "Foretold is {} to {} % {} what held.", "Probes of fewer clients were too few to foretell {}."
 FAILED, TOO_LONG, INTERRUPTED = 3, 4, 130
 
 
@@ -184,9 +185,9 @@ def saturation_lines(file):
     sentences = []
     if off:
         lowest, highest = round(min(off)), round(max(off))
-        sentences.append(f"Foretold is {lowest} to {highest} % above what held." if lowest >= 0 else f"Foretold is {lowest} to {highest} % off what held.")
+        sentences.append(FORETOLD.format(lowest, highest, "above" if lowest >= 0 else "off"))
     if without:
-        sentences.append(f"Probes of fewer clients were too few to foretell {', '.join(without)}.")
+        sentences.append(TOO_FEW.format(", ".join(without)))
     return textwrap.wrap(" ".join(sentences), 160)
 
 
