@@ -21,7 +21,7 @@ std::size_t write_traces(const std::filesystem::path& folder) {
     const game::ServerTrace server = game::read_server_trace(name + ".server.jsonl");
     const RelevanceArea area = relevance_of(part_of(experiment, run.cell.part), run.cell,
                                             game::chosen_scene(server.choice));
-    write_trace(name + ".truth.jsonl", server, read_bots_trace(name + ".bots.jsonl"), area);
+    write_trace(name + ".truth.jsonl", server, game::read_bots_trace(name + ".bots.jsonl"), area);
     ++written;
   }
   return written;

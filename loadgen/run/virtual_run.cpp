@@ -50,7 +50,7 @@ class VirtualRun {
   Json bots_report() const;
   /// The traces of server and bots; only if the run is compared with truth.
   game::ServerTrace server_trace() const;
-  BotsTrace bots_trace() const { return crowd_.trace().value(); }
+  game::BotsTrace bots_trace() const { return crowd_.trace().value(); }
   /// The traffic of all connections from first to last; call it after `end`.
   void end(Json& server_report);
 
@@ -322,7 +322,7 @@ void run(const RunnerSettings& settings, const Experiment& experiment, const Cel
   const Json bots = run.bots_report();
   const game::ServerTrace server_trace =
       settings.wants_truth ? run.server_trace() : game::ServerTrace();
-  const BotsTrace bots_trace = settings.wants_truth ? run.bots_trace() : BotsTrace();
+  const game::BotsTrace bots_trace = settings.wants_truth ? run.bots_trace() : game::BotsTrace();
   run.end(server);
   write_json(settings.directory / (name_of(cell) + ".server.json"), server);
   write_json(settings.directory / (name_of(cell) + ".bots.json"), bots);

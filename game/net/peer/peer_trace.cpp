@@ -1,4 +1,4 @@
-// Writes and reads a peer's trace: a header, its events, its decisions, and its player's replicas.
+// Writes and reads a peer's trace: a header with its events and decisions, then its player's trace.
 #include "game/net/peer/peer_trace.h"
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@ namespace rink::game {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int version = 1;
+constexpr int version = 2;  // 2: its player's trace is that of a bot
 
 Json json_of(const PeerLoad& load) {
   return {{"instant_s", load.instant_s},
@@ -36,54 +36,6 @@ PeerLoad load_in(const nlohmann::json& json) {
   return load;
 }
 
-void write_player(TraceWriter& writer, const PlayerTrace& player) {
-  Json changes = Json::array();
-  for (const PlayerTrace::ScopeChange& change : player.changes)
-    changes.push_back({change.instant_s, change.body, change.is_in});
-  writer.line({{"bat", player.bat}, {"samples", player.samples.size()}, {"changes", changes}});
-  for (const PlayerTrace::Sample& sample : player.samples) {
-    Json replicas = Json::array();
-    for (std::size_t k = sample.first; k < sample.last; ++k) {
-      const PlayerTrace::Replica& replica = player.replicas[k];
-      Json entry{replica.body, replica.bytes};
-      if (replica.is_in_scope)
-        for (const physics::Vector2& place : {replica.matched, replica.displayed})
-          entry.push_back(place.x()), entry.push_back(place.y());
-      replicas.push_back(std::move(entry));
-    }
-    writer.line({{"displayed_s", sample.displayed_s},
-                 {"matched_s", sample.matched_s},
-                 {"window_s", sample.window_s},
-                 {"bodies", replicas}});
-  }
-}
-
-PlayerTrace read_player(TraceReader& reader) {
-  PlayerTrace player;
-  const nlohmann::json head = reader.next();
-  player.bat = head.at("bat");
-  for (const nlohmann::json& change : head.at("changes"))
-    player.changes.push_back({change.at(0), change.at(1), change.at(2)});
-  for (std::size_t k = 0; k < head.at("samples").get<std::size_t>(); ++k) {
-    const nlohmann::json line = reader.next();
-    const std::size_t first = player.replicas.size();
-    for (const nlohmann::json& entry : line.at("bodies")) {
-      PlayerTrace::Replica replica{
-          .body = entry.at(0), .bytes = entry.at(1), .is_in_scope = entry.size() > 2};
-      if (replica.is_in_scope)
-        replica.matched = {entry.at(2).get<double>(), entry.at(3).get<double>()},
-        replica.displayed = {entry.at(4).get<double>(), entry.at(5).get<double>()};
-      player.replicas.push_back(replica);
-    }
-    player.samples.push_back({.displayed_s = line.at("displayed_s"),
-                              .matched_s = line.at("matched_s"),
-                              .window_s = line.at("window_s"),
-                              .first = first,
-                              .last = player.replicas.size()});
-  }
-  return player;
-}
-
 PeerTrace read_lines(TraceReader& reader) {
   PeerTrace trace;
   const nlohmann::json header = reader.next();
@@ -99,7 +51,7 @@ PeerTrace read_lines(TraceReader& reader) {
   }
   for (const nlohmann::json& decision : header.at("decisions"))
     trace.decisions.push_back({decision.at(0), decision.at(1), decision.at(2)});
-  if (header.at("is_watched").get<bool>()) trace.player = read_player(reader);
+  if (header.at("is_watched").get<bool>()) trace.player = read_bots_lines(reader);
   return trace;
 }
 
@@ -120,7 +72,7 @@ void write_trace(const std::string& file, const PeerTrace& trace) {
                {"end", json_of(trace.end)},
                {"events", events},
                {"decisions", decisions}});
-  if (trace.player) write_player(writer, *trace.player);
+  if (trace.player) write_lines(writer, *trace.player);
   writer.finish();
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "game/net/peer/player_recorder.h"
+#include "game/net/bots_trace.h"
 #include "game/net/peer/traffic.h"
 
 namespace rink::game {
@@ -44,7 +44,7 @@ struct PeerTrace {
   PeerLoad begin, end;        ///< of the measured span
   std::vector<Event> events;  ///< in order
   std::vector<Decision> decisions;
-  std::optional<PlayerTrace> player;  ///< if it was watched
+  std::optional<BotsTrace> player;  ///< if it was watched; its objects are bodies
 };
 
 /// Throws std::runtime_error naming `file` if it cannot be written.

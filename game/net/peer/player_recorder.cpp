@@ -20,7 +20,7 @@ void PlayerRecorder::note_commit(double instant_s, double matched_s) {
                         const std::vector<std::uint32_t>& others, bool is_in) {
     for (const std::uint32_t body : these)
       if (!std::binary_search(others.begin(), others.end(), body))
-        trace_.changes.push_back({instant_s, body, is_in});
+        trace_.bots.front().changes.push_back({instant_s, body, is_in});
   };
   note(scope_, listed_, false);
   note(listed_, scope_, true);
@@ -40,7 +40,7 @@ void PlayerRecorder::sample(double instant_s) {
                 [&](const auto& received) { return received.first <= instant_s - window_s; });
   const std::size_t first = trace_.replicas.size();
   for (std::size_t k = 0; k < scope_.size(); ++k)
-    trace_.replicas.push_back({.body = scope_[k],
+    trace_.replicas.push_back({.object = scope_[k],
                                .bytes = 0,
                                .is_in_scope = true,
                                .matched = matched_[k],
@@ -50,7 +50,7 @@ void PlayerRecorder::sample(double instant_s) {
     if (place != scope_.end() && *place == received.body)
       trace_.replicas[first + static_cast<std::size_t>(place - scope_.begin())].bytes +=
           received.bytes;
-    else trace_.replicas.push_back({.body = received.body, .bytes = received.bytes});
+    else trace_.replicas.push_back({.object = received.body, .bytes = received.bytes});
   }
   trace_.samples.push_back({.displayed_s = instant_s,
                             .matched_s = matched_s_,

@@ -20,10 +20,10 @@ std::optional<double> ratio(double part, double whole) {
 
 }  // namespace
 
-ReplayJudgement::ReplayJudgement(const game::ServerTrace& server, const BotsTrace& bots,
+ReplayJudgement::ReplayJudgement(const game::ServerTrace& server, const game::BotsTrace& bots,
                                  const RelevanceArea& area, Entries entries)
     : server_(server), bots_(bots), area_(area), entries_(entries), replay_(server, area) {
-  for (const BotsTrace::Bot& bot : bots.bots) add_player(bot);
+  for (const game::BotsTrace::Bot& bot : bots.bots) add_player(bot);
   plan_looks();
 }
 
@@ -49,9 +49,9 @@ void ReplayJudgement::look_around(double instant_s) {
   if (trace_) trace_->look(instant_s, replay_);
 }
 
-void ReplayJudgement::add_player(const BotsTrace::Bot& bot) {
+void ReplayJudgement::add_player(const game::BotsTrace::Bot& bot) {
   std::vector<ScopeStep> steps;
-  for (const BotsTrace::ScopeChange& change : bot.changes)
+  for (const game::BotsTrace::ScopeChange& change : bot.changes)
     if (const auto entity = replay_.entity_of_object(change.object))
       steps.push_back({change.instant_s, *entity, change.is_in});
   std::stable_sort(steps.begin(), steps.end(), [](const ScopeStep& a, const ScopeStep& b) {
@@ -135,8 +135,8 @@ bool ReplayJudgement::is_relevant(std::uint32_t entity) const {
 /// True if `entity` was put back at a face-off of which the replica set of `sample` had no update:
 /// its newest stamp is from before, or neither an update of the entity nor its state on entry came
 /// within a window that reaches back before the face-off.
-bool ReplayJudgement::is_replaced_unheard(const BotsTrace::Sample& sample,
-                                          const BotsTrace::Replica& replica,
+bool ReplayJudgement::is_replaced_unheard(const game::BotsTrace::Sample& sample,
+                                          const game::BotsTrace::Replica& replica,
                                           std::uint32_t entity) const {
   constexpr double rounding_s = 1e-6;
   const std::optional<double> replaced_s = replay_.replaced_s(entity);
@@ -149,15 +149,15 @@ bool ReplayJudgement::is_replaced_unheard(const BotsTrace::Sample& sample,
   });
 }
 
-void ReplayJudgement::add_error(PositionErrors& errors, const BotsTrace::Sample& sample,
-                                const BotsTrace::Replica& replica, std::uint32_t entity,
+void ReplayJudgement::add_error(PositionErrors& errors, const game::BotsTrace::Sample& sample,
+                                const game::BotsTrace::Replica& replica, std::uint32_t entity,
                                 const Vector2& believed) {
   const double distance = (believed - replay_.centre(entity)).norm();
   if (is_replaced_unheard(sample, replica, entity)) errors.add_replaced(distance);
   else errors.add(distance);
 }
 
-void ReplayJudgement::judge_displayed(const BotsTrace::Sample& sample) {
+void ReplayJudgement::judge_displayed(const game::BotsTrace::Sample& sample) {
   assert(sample.bot < players_.size() && sample.last <= bots_.replicas.size());
   Player& player = players_[sample.bot];
   if (!is_present(player)) return;
@@ -166,7 +166,7 @@ void ReplayJudgement::judge_displayed(const BotsTrace::Sample& sample) {
   player.delivered.list(*player.bat, chosen_);
   delivered_.add(chosen_, relevant_);
   for (std::size_t i = sample.first; i < sample.last; ++i) {
-    const BotsTrace::Replica& replica = bots_.replicas[i];
+    const game::BotsTrace::Replica& replica = bots_.replicas[i];
     const auto entity = replay_.entity_of_object(replica.object);
     if (!entity || *entity == *player.bat) continue;
     bytes_ += replica.bytes;
@@ -176,13 +176,13 @@ void ReplayJudgement::judge_displayed(const BotsTrace::Sample& sample) {
   }
 }
 
-void ReplayJudgement::judge_matched(const BotsTrace::Sample& sample) {
+void ReplayJudgement::judge_matched(const game::BotsTrace::Sample& sample) {
   assert(sample.bot < players_.size() && sample.last <= bots_.replicas.size());
   const Player& player = players_[sample.bot];
   if (!is_present(player)) return;
   replay_.find(*player.bat, relevant_);
   for (std::size_t i = sample.first; i < sample.last; ++i) {
-    const BotsTrace::Replica& replica = bots_.replicas[i];
+    const game::BotsTrace::Replica& replica = bots_.replicas[i];
     const auto entity = replay_.entity_of_object(replica.object);
     if (!replica.is_in_scope || !entity || *entity == *player.bat || !is_relevant(*entity))
       continue;

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "game/net/bots_trace.h"
 #include "game/net/server_trace.h"
 #include "loadgen/measure/statistics/histogram.h"
 #include "loadgen/measure/statistics/sample_distribution.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/measure/truth/classification.h"
 #include "loadgen/measure/truth/discovery.h"
 #include "loadgen/measure/truth/relevance.h"
@@ -25,8 +25,8 @@ namespace rink::loadgen {
 
 class ReplayJudgement {
  public:
-  ReplayJudgement(const game::ServerTrace& server, const BotsTrace& bots, const RelevanceArea& area,
-                  Entries entries = Entries::found);
+  ReplayJudgement(const game::ServerTrace& server, const game::BotsTrace& bots,
+                  const RelevanceArea& area, Entries entries = Entries::found);
 
   /// Records all positions in `trace`; call it before `figures`.
   void trace_to(TruthTrace& trace) {
@@ -59,7 +59,7 @@ class ReplayJudgement {
   };
 
   void look_around(double instant_s);
-  void add_player(const BotsTrace::Bot& bot);
+  void add_player(const game::BotsTrace::Bot& bot);
   void plan_looks();
   void judge(const Look& look);
   bool is_present(const Player& player) const {
@@ -68,19 +68,20 @@ class ReplayJudgement {
   void judge_entries(double instant_s);
   void judge_decision(const game::ServerTrace::Decision& decision);
   bool is_relevant(std::uint32_t entity) const;
-  bool is_replaced_unheard(const BotsTrace::Sample& sample, const BotsTrace::Replica& replica,
-                           std::uint32_t entity) const;
-  void add_error(PositionErrors& errors, const BotsTrace::Sample& sample,
-                 const BotsTrace::Replica& replica, std::uint32_t entity, const Vector2& believed);
-  void judge_displayed(const BotsTrace::Sample& sample);
-  void judge_matched(const BotsTrace::Sample& sample);
+  bool is_replaced_unheard(const game::BotsTrace::Sample& sample,
+                           const game::BotsTrace::Replica& replica, std::uint32_t entity) const;
+  void add_error(PositionErrors& errors, const game::BotsTrace::Sample& sample,
+                 const game::BotsTrace::Replica& replica, std::uint32_t entity,
+                 const Vector2& believed);
+  void judge_displayed(const game::BotsTrace::Sample& sample);
+  void judge_matched(const game::BotsTrace::Sample& sample);
   void judge_contacts();
   void judge_contact(Player& player, std::uint32_t entity, double instant_s);
   TruthFigures sums();
   Percentiles late_entries();
 
   const game::ServerTrace& server_;
-  const BotsTrace& bots_;
+  const game::BotsTrace& bots_;
   RelevanceArea area_;
   Entries entries_;
   Replay replay_;

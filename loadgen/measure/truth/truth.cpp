@@ -14,7 +14,7 @@
 
 namespace rink::loadgen {
 
-TruthFigures truth_of(const game::ServerTrace& server, const BotsTrace& bots,
+TruthFigures truth_of(const game::ServerTrace& server, const game::BotsTrace& bots,
                       const RelevanceArea& area, Discoveries* discoveries, Entries entries) {
   ReplayJudgement judgement(server, bots, area, entries);
   const TruthFigures figures = judgement.figures();
@@ -22,8 +22,8 @@ TruthFigures truth_of(const game::ServerTrace& server, const BotsTrace& bots,
   return figures;
 }
 
-void write_trace(const std::string& file, const game::ServerTrace& server, const BotsTrace& bots,
-                 const RelevanceArea& area) {
+void write_trace(const std::string& file, const game::ServerTrace& server,
+                 const game::BotsTrace& bots, const RelevanceArea& area) {
   TruthTrace trace(file);
   ReplayJudgement judgement(server, bots, area);
   judgement.trace_to(trace);
@@ -54,7 +54,7 @@ RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
 namespace {
 
 void judge(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
-           const BotsTrace& bots, Discoveries* discoveries) {
+           const game::BotsTrace& bots, Discoveries* discoveries) {
   const Entries entries = discoveries ? Entries::found : Entries::passed_over;
   const RelevanceArea area =
       relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
@@ -92,7 +92,7 @@ const char* const too_many_changes =
 }  // namespace
 
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
-               const BotsTrace& bots) {
+               const game::BotsTrace& bots) {
   record_error(record, [&] {
     judge(record, experiment, server, bots, nullptr);
     if (!bots.is_complete) record.truth.error = too_many_changes;
@@ -110,7 +110,7 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
     record.truth.relevance =
         text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
     add_tick_costs(record, server);
-    const BotsTrace bots = read_bots_trace(bots_file);
+    const game::BotsTrace bots = game::read_bots_trace(bots_file);
     Discoveries found;
     judge(record, experiment, server, bots, &found);
     if (bots.is_complete) discoveries = found;

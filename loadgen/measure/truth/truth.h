@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 
+#include "game/net/bots_trace.h"
 #include "game/net/server_trace.h"
 #include "game/net/trace_lines.h"
 #include "loadgen/measure/run_record.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/measure/truth/discovery.h"
 #include "loadgen/measure/truth/relevance.h"
 
@@ -20,15 +20,15 @@ namespace rink::loadgen {
 /// server's state (DifferentGame), or if the evidence contradicts itself; game::SceneError if the
 /// scene cannot be read. Fills `discoveries` too unless it is null: empty if the bots' trace is
 /// incomplete.
-TruthFigures truth_of(const game::ServerTrace& server, const BotsTrace& bots,
+TruthFigures truth_of(const game::ServerTrace& server, const game::BotsTrace& bots,
                       const RelevanceArea& area, Discoveries* discoveries = nullptr,
                       Entries entries = Entries::found);
 
 /// Writes all positions at each look of `truth_of` (loadgen/measure/truth/trace.h), for programs
 /// that check the figures. Throws what `truth_of` does, and std::runtime_error if `file` cannot be
 /// written.
-void write_trace(const std::string& file, const game::ServerTrace& server, const BotsTrace& bots,
-                 const RelevanceArea& area);
+void write_trace(const std::string& file, const game::ServerTrace& server,
+                 const game::BotsTrace& bots, const RelevanceArea& area);
 
 /// The definition of relevance of `experiment` in `cell`, which plays `scene`.
 RelevanceArea relevance_of(const Experiment& experiment, const Cell& cell,
@@ -44,5 +44,5 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
 /// Adds figures from traces in memory, which should be `rounded` so that they equal those of files.
 /// Late entries are not looked for.
 void add_truth(RunRecord& record, const Experiment& experiment, const game::ServerTrace& server,
-               const BotsTrace& bots);
+               const game::BotsTrace& bots);
 }  // namespace rink::loadgen

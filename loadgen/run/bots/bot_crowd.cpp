@@ -265,7 +265,7 @@ void BotCrowd::collect_trace(std::uint64_t seed) {
                     clients);
 }
 
-std::optional<BotsTrace> BotCrowd::trace() const {
+std::optional<game::BotsTrace> BotCrowd::trace() const {
   if (!recorder_) return std::nullopt;
   return recorder_->trace();
 }

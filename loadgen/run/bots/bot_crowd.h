@@ -50,7 +50,7 @@ class BotCrowd : public rti::TransportListener {
   /// Watches some of the bots, drawn from `seed`; call it before `connect`.
   void collect_trace(std::uint64_t seed);
   /// The trace of watched bots, if `collect_trace` was called.
-  std::optional<BotsTrace> trace() const;
+  std::optional<game::BotsTrace> trace() const;
   std::size_t evidence_bytes() const { return recorder_ ? recorder_->memory_bytes() : 0; }
 
   /// Opens the connections and sends the joins.

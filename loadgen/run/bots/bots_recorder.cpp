@@ -52,7 +52,7 @@ void BotsRecorder::listen(std::uint32_t bot, std::optional<double> simulated_s) 
   client.received().forget();
 }
 
-void BotsRecorder::note(std::uint32_t place, const BotsTrace::ScopeChange& change) {
+void BotsRecorder::note(std::uint32_t place, const game::BotsTrace::ScopeChange& change) {
   if (++change_count_ > settings_.record_max) trace_.is_complete = false;
   else trace_.bots[place].changes.push_back(change);
 }
@@ -93,9 +93,9 @@ void BotsRecorder::look_into(std::uint32_t place, double simulated_s) {
     const std::uint32_t bytes = bytes_of(received, entity.object.value);
     if (!entity.in_scope && (bytes == 0 || ++skipped < step)) continue;
     skipped = 0;
-    BotsTrace::Replica replica{.object = entity.object.value,
-                               .bytes = bytes,
-                               .is_in_scope = entity.in_scope && entity.is_placed};
+    game::BotsTrace::Replica replica{.object = entity.object.value,
+                                     .bytes = bytes,
+                                     .is_in_scope = entity.in_scope && entity.is_placed};
     if (replica.is_in_scope)
       replica.matched = entity.position_at(matched_s_[place]),
       replica.displayed = entity.position_at(simulated_s);
@@ -119,8 +119,8 @@ std::uint32_t BotsRecorder::bytes_of(std::span<const Received> received,
   return bytes;
 }
 
-BotsTrace BotsRecorder::trace() const {
-  BotsTrace result = trace_;
+game::BotsTrace BotsRecorder::trace() const {
+  game::BotsTrace result = trace_;
   for (std::size_t place = 0; place < clients_.size(); ++place)
     if (const game::EntityReplica* bat = clients_[place]->bat())
       result.bots[place].object = bat->object.value;
@@ -128,10 +128,10 @@ BotsTrace BotsRecorder::trace() const {
 }
 
 std::size_t BotsRecorder::memory_bytes() const {
-  std::size_t bytes = trace_.samples.capacity() * sizeof(BotsTrace::Sample) +
-                      trace_.replicas.capacity() * sizeof(BotsTrace::Replica);
-  for (const BotsTrace::Bot& bot : trace_.bots)
-    bytes += bot.changes.capacity() * sizeof(BotsTrace::ScopeChange);
+  std::size_t bytes = trace_.samples.capacity() * sizeof(game::BotsTrace::Sample) +
+                      trace_.replicas.capacity() * sizeof(game::BotsTrace::Replica);
+  for (const game::BotsTrace::Bot& bot : trace_.bots)
+    bytes += bot.changes.capacity() * sizeof(game::BotsTrace::ScopeChange);
   for (const auto& received : received_) bytes += received.capacity() * sizeof(Received);
   return bytes;
 }

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "game/net/bots_trace.h"
 #include "game/net/client/client.h"
 #include "game/net/sampling.h"
-#include "loadgen/measure/truth/bots_trace.h"
 
 namespace rink::loadgen {
 
@@ -28,7 +28,7 @@ class BotsRecorder {
   /// Takes every due sample, of all watched bots as of the same instant.
   void sample(double simulated_s);
 
-  BotsTrace trace() const;
+  game::BotsTrace trace() const;
   std::size_t memory_bytes() const;
 
  private:
@@ -40,7 +40,7 @@ class BotsRecorder {
     std::uint32_t object, bytes;
   };
 
-  void note(std::uint32_t place, const BotsTrace::ScopeChange& change);
+  void note(std::uint32_t place, const game::BotsTrace::ScopeChange& change);
   void look_into(std::uint32_t place, double simulated_s);
   std::uint32_t bytes_of(std::span<const Received> received, std::uint32_t object) const;
 
@@ -54,7 +54,7 @@ class BotsRecorder {
   std::vector<std::vector<rti::ObjectHandle>>
       awaited_;  ///< by place: in scope, but without a position yet, which a budget may delay
   std::vector<double> matched_s_;  ///< by place: the newest stamp
-  BotsTrace trace_;
+  game::BotsTrace trace_;
 };
 
 }  // namespace rink::loadgen

@@ -30,32 +30,11 @@ game::ServerTrace trace_of(const Experiment& experiment, const Cell& cell, const
   return server;
 }
 
-BotsTrace bots_trace_of(const game::ServerTrace& server) {
-  BotsTrace bots;
+game::BotsTrace bots_trace_of(const game::ServerTrace& server) {
+  game::BotsTrace bots;
   bots.clients = server.clients;
   bots.from_s = server.from_s, bots.until_s = server.until_s;
   return bots;
-}
-
-void add_player(BotsTrace& bots, const game::PlayerTrace& player) {
-  const std::size_t before = bots.replicas.size();
-  for (const game::PlayerTrace::Replica& replica : player.replicas)
-    bots.replicas.push_back({.object = replica.body,
-                             .bytes = replica.bytes,
-                             .is_in_scope = replica.is_in_scope,
-                             .matched = replica.matched,
-                             .displayed = replica.displayed});
-  for (const game::PlayerTrace::Sample& sample : player.samples)
-    bots.samples.push_back({.bot = static_cast<std::uint32_t>(bots.bots.size()),
-                            .displayed_s = sample.displayed_s,
-                            .matched_s = sample.matched_s,
-                            .window_s = sample.window_s,
-                            .first = before + sample.first,
-                            .last = before + sample.last});
-  BotsTrace::Bot& bot = bots.bots.emplace_back();
-  bot.object = player.bat;
-  for (const game::PlayerTrace::ScopeChange& change : player.changes)
-    bot.changes.push_back({change.instant_s, change.body, change.is_in});
 }
 
 void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,

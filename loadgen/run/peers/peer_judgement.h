@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "game/control/game.h"
-#include "game/net/peer/player_recorder.h"
+#include "game/net/bots_trace.h"
 #include "game/net/server_trace.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/run/cell_runner.h"
 #include "loadgen/run/peers/peer_report.h"
 
@@ -19,16 +18,14 @@ game::ServerTrace trace_of(const Experiment& experiment, const Cell& cell, const
                            const std::vector<game::InputEvent>& keys,
                            const std::string& state_hash);
 /// An empty trace of bots for the run of `server`.
-BotsTrace bots_trace_of(const game::ServerTrace& server);
-/// Adds the next watched player.
-void add_player(BotsTrace& bots, const game::PlayerTrace& player);
+game::BotsTrace bots_trace_of(const game::ServerTrace& server);
 
 /// The combined results of peers.
 struct PeersFindings {
   const PeerTotals& totals;
   const Measurements& measured;
   const game::ServerTrace& server;
-  BotsTrace bots;
+  game::BotsTrace bots;
 };
 
 /// Writes NAME.peers.json, NAME.bots.json and, where truth is wanted, both kinds of traces; and

@@ -306,9 +306,9 @@ void PeerProcesses::run(RunRecord& record) {
   record.nodes.mean_cpu_s = sum_s / static_cast<double>(processes_.size());
   game::ServerTrace server = trace_of(experiment_, cell_, start, keys_, sums.state_hash);
   add_decisions(server, start);
-  BotsTrace bots = bots_trace_of(server);
+  game::BotsTrace bots = bots_trace_of(server);
   for (const game::PeerTrace& peer : trace_)
-    if (peer.player) add_player(bots, *peer.player);
+    if (peer.player) append(bots, *peer.player);
   judge_peers(settings_, experiment_, record,
               {.totals = sums, .measured = measured, .server = server, .bots = std::move(bots)});
 }

@@ -357,9 +357,9 @@ void PeerRun::judge(RunRecord& record) const {
   game::ServerTrace server =
       trace_of(experiment_, cell_, game_.start(), trace_.keys, sums.state_hash);
   server.decisions = trace_.decisions, server.in_scope = trace_.in_scope;
-  BotsTrace bots = bots_trace_of(server);
+  game::BotsTrace bots = bots_trace_of(server);
   for (const std::uint32_t player : players_)
-    add_player(bots, stations_[node_of_player_[player]].trace());
+    append(bots, stations_[node_of_player_[player]].trace());
   judge_peers(
       settings_, experiment_, record,
       {.totals = sums, .measured = measurements_, .server = server, .bots = std::move(bots)});

@@ -58,7 +58,7 @@ class PeerStation {
   std::uint64_t windows_known() const { return known_; }
   std::uint64_t windows_on_time() const { return on_time_; }
   /// The trace of a watched player.
-  const game::PlayerTrace& trace() const { return recorder_->trace(); }
+  const game::BotsTrace& trace() const { return recorder_->trace(); }
 
  private:
   void note_commit();

@@ -12,12 +12,12 @@
 #include <tuple>
 #include <vector>
 
+#include "game/net/bots_trace.h"
 #include "game/net/client/client.h"
 #include "game/net/fom_file.h"
 #include "game/net/server_trace.h"
 #include "game/net/trace_lines.h"
 #include "game/replication/trajectory_codec.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/run/bots/bots_recorder.h"
 #include "tests/temporary_folder.h"
 
@@ -75,7 +75,7 @@ TEST_F(EvidenceFile, OfAServerHasTicksInMicrosecondsKeysObjectsAndRunsOfWhatWasI
 }
 
 TEST_F(EvidenceFile, OfBotsHasChangesInMicrosecondsAndPlacesInNanometresNoneTwice) {
-  BotsTrace bots;
+  game::BotsTrace bots;
   bots.clients = 9, bots.from_s = 0.5, bots.until_s = 2.5;
   bots.bots = {{100, {{-1.0, 100, true}, {1.25, 102, false}}}};
   bots.replicas = {{.object = 7,
@@ -105,7 +105,7 @@ TEST_F(EvidenceFile, OfBotsHasChangesInMicrosecondsAndPlacesInNanometresNoneTwic
 }
 
 TEST_F(EvidenceFile, OfBotsIsReadAsItWasWritten) {
-  BotsTrace bots;
+  game::BotsTrace bots;
   bots.bots = {{100, {}}, {101, {}}};
   bots.replicas = {{.object = 4'294'967'295,
                     .bytes = 8,
@@ -119,10 +119,10 @@ TEST_F(EvidenceFile, OfBotsIsReadAsItWasWritten) {
       {.bot = 0, .displayed_s = 3.0, .matched_s = -1.0, .window_s = 0.0, .first = 2, .last = 2},
       {.bot = 0, .displayed_s = 4.0, .matched_s = 4.0, .window_s = 0.0, .first = 2, .last = 3}};
   write_trace(file(), bots);
-  const BotsTrace read = read_bots_trace(file());
+  const game::BotsTrace read = game::read_bots_trace(file());
   ASSERT_EQ(read.samples.size(), bots.samples.size());
   for (std::size_t i = 0; i < read.samples.size(); ++i) {
-    const BotsTrace::Sample &found = read.samples[i], &said = bots.samples[i];
+    const game::BotsTrace::Sample &found = read.samples[i], &said = bots.samples[i];
     EXPECT_EQ(
         std::tie(found.bot, found.displayed_s, found.matched_s, found.window_s, found.first,
                  found.last),
@@ -130,7 +130,7 @@ TEST_F(EvidenceFile, OfBotsIsReadAsItWasWritten) {
   }
   ASSERT_EQ(read.replicas.size(), bots.replicas.size());
   for (std::size_t i = 0; i < read.replicas.size(); ++i) {
-    const BotsTrace::Replica &found = read.replicas[i], &said = bots.replicas[i];
+    const game::BotsTrace::Replica &found = read.replicas[i], &said = bots.replicas[i];
     EXPECT_EQ(
         std::tie(found.object, found.bytes, found.is_in_scope, found.matched, found.displayed),
         std::tie(said.object, said.bytes, said.is_in_scope, said.matched, said.displayed))
@@ -139,7 +139,7 @@ TEST_F(EvidenceFile, OfBotsIsReadAsItWasWritten) {
 }
 
 TEST_F(EvidenceFile, OfBotsGivesBackWhatIsRoundedInMemory) {
-  BotsTrace bots;
+  game::BotsTrace bots;
   bots.bots = {{100, {{-1.0 / 3.0, 100, true}, {2.0 / 3.0, 102, false}}}};
   bots.replicas = {{.object = 7,
                     .bytes = 8,
@@ -158,7 +158,7 @@ TEST_F(EvidenceFile, OfBotsGivesBackWhatIsRoundedInMemory) {
                    .first = 0,
                    .last = 2}};
   write_trace(file(), bots);
-  const BotsTrace read = read_bots_trace(file()), in_memory = rounded(bots);
+  const game::BotsTrace read = game::read_bots_trace(file()), in_memory = rounded(bots);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(read.bots[0].changes[i].instant_s, in_memory.bots[0].changes[i].instant_s) << i;
     EXPECT_EQ(read.replicas[i].matched, in_memory.replicas[i].matched) << i;
@@ -183,7 +183,7 @@ TEST_F(EvidenceFile, OfBotsWithASampleThatIsNoneIsRefusedWithItsLineAndWhatWasEx
     writer.line_of_text(sample);
     writer.finish();
     try {
-      read_bots_trace(file());
+      game::read_bots_trace(file());
     } catch (const game::TraceError& error) {
       const std::string found = error.what();
       return found.starts_with(file()) ? found.substr(file().size()) : found;
@@ -216,7 +216,7 @@ TEST_F(EvidenceFile, OfBotsWithASampleThatIsNoneIsRefusedWithItsLineAndWhatWasEx
 
 /// FNV-1a of 64 bits: its offset, then for each byte an exclusive or and its prime.
 TEST_F(EvidenceFile, EndsWithTheNumberOfItsLinesAndTheHashOfTheBytesBefore) {
-  write_trace(file(), BotsTrace{});
+  write_trace(file(), game::BotsTrace{});
   const std::string text = test::text_of(file());
   const std::size_t last = text.rfind('\n', text.size() - 2) + 1;
   std::uint64_t hash = 14'695'981'039'346'656'037u;
@@ -266,11 +266,11 @@ TEST_F(WatchedClient, OfALargeMirrorEveryNthEntityIsGivenFromADrawnOneOn) {
   discover(1, count);
   recorder.listen(0, 0.0);
   while (recorder.next_sample_s() < 10.0) recorder.sample(recorder.next_sample_s());
-  const BotsTrace trace = recorder.trace();
+  const game::BotsTrace trace = recorder.trace();
   ASSERT_EQ(trace.samples.size(), 100u);
   EXPECT_LE(trace.replicas.size(), 150'000u);
   std::vector<int> begun(nth + 1, 0);
-  for (const BotsTrace::Sample& sample : trace.samples) {
+  for (const game::BotsTrace::Sample& sample : trace.samples) {
     ASSERT_GE(sample.last - sample.first, count / nth);
     for (std::size_t i = sample.first + 1; i < sample.last; ++i)
       ASSERT_EQ(trace.replicas[i].object - trace.replicas[i - 1].object, nth);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/net/bots_trace.h"
 #include "game/net/scene_choice.h"
 #include "game/net/server_trace.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/measure/truth/truth.h"
 #include "tests/temporary_folder.h"
 
@@ -68,14 +68,14 @@ class JudgedRink : public testing::Test {
   }
   /// From before the beginning on the player knew of `bodies`, of which the first is its bat.
   void know(const std::vector<std::uint32_t>& bodies) {
-    BotsTrace::Bot& bot = bots_.bots.emplace_back();
+    game::BotsTrace::Bot& bot = bots_.bots.emplace_back();
     bot.object = 100 + bodies.front();
     for (const std::uint32_t body : bodies) bot.changes.push_back({-1.0, 100 + body, true});
   }
 
   test::TemporaryFolder folder_{"truth"};
   game::ServerTrace server_;
-  BotsTrace bots_;
+  game::BotsTrace bots_;
 };
 
 }  // namespace rink::loadgen

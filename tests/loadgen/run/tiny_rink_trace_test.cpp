@@ -8,11 +8,11 @@
 #include <sstream>
 #include <string>
 
+#include "game/net/bots_trace.h"
 #include "game/net/peer/peer_trace.h"
 #include "game/net/server_trace.h"
 #include "game/net/trace_lines.h"
 #include "loadgen/measure/run_record.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/measure/truth/replay.h"
 #include "loadgen/measure/truth/truth.h"
 #include "tests/loadgen/run/tiny_rink.h"
@@ -52,7 +52,7 @@ TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
       {.bot = 0, .displayed_s = 0.7, .matched_s = 0.6, .window_s = 0.05, .first = 0, .last = 1});
   const std::string bots_file = (folder_ / "bots.jsonl").string();
   write_trace(bots_file, bots_);
-  const BotsTrace bots = read_bots_trace(bots_file);
+  const game::BotsTrace bots = game::read_bots_trace(bots_file);
   ASSERT_EQ(bots.replicas.size(), 1u);
   EXPECT_EQ(bots.replicas[0].displayed, Vector2(1.5, -2.5));
   EXPECT_EQ(bots.bots.at(0).changes.size(), 2u);
@@ -77,7 +77,7 @@ TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
       HasSubstr("other.jsonl:1: expected a server's evidence of version 2, found version 3"));
   EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_trace),
               HasSubstr("expected a peer's evidence of version 1, found version 3"));
-  EXPECT_THAT(words_of("rink-bots-evidence", read_bots_trace),
+  EXPECT_THAT(words_of("rink-bots-evidence", game::read_bots_trace),
               HasSubstr("expected the bots' evidence of version 1, found version 3"));
   EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_trace),
               HasSubstr("expected a server's evidence of version 2, found something else"));

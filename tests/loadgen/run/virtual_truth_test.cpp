@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/net/bots_trace.h"
 #include "game/net/server_trace.h"
-#include "loadgen/measure/truth/bots_trace.h"
 #include "loadgen/run/game_plan.h"
 #include "tests/loadgen/run/virtual_experiment.h"
 
@@ -102,9 +102,9 @@ TEST_F(VirtualRunTest, ChurnIsWhatTheServersFilterSaidWithinTheSpan) {
       server["scope_exits"].get<double>() + server["scope_entries"].get<double>();
   EXPECT_NEAR(*record.truth.churn_per_client_per_s, changes / 6.0 / 3.0, 1e-9);
   std::uint64_t exits = 0;
-  for (const BotsTrace::Bot& bot :
-       read_bots_trace((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string()).bots)
-    for (const BotsTrace::ScopeChange& change : bot.changes)
+  for (const game::BotsTrace::Bot& bot :
+       game::read_bots_trace((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string()).bots)
+    for (const game::BotsTrace::ScopeChange& change : bot.changes)
       exits += !change.is_in && change.instant_s >= experiment_.warm_up_s &&
                change.instant_s < experiment_.warm_up_s + experiment_.duration_s;
   EXPECT_EQ(server["scope_exits"], exits);
@@ -119,7 +119,7 @@ TEST_F(VirtualRunTest, TheDecisionInForceIsThatOfTheNewestTick) {
   run(first_cell());
   const std::string stem = (folder_ / name_of(first_cell())).string();
   const game::ServerTrace server = game::read_server_trace(stem + ".server.jsonl");
-  const BotsTrace bots = read_bots_trace(stem + ".bots.jsonl");
+  const game::BotsTrace bots = game::read_bots_trace(stem + ".bots.jsonl");
   const game::Game game(scene_of(experiment_, first_cell()));
   ASSERT_EQ(server.decisions.size(), 20u * 6u) << "20 instants of 6 players";
   std::set<std::vector<std::uint32_t>> different;
@@ -129,8 +129,8 @@ TEST_F(VirtualRunTest, TheDecisionInForceIsThatOfTheNewestTick) {
         std::ranges::find(server.objects, body, &game::ServerTrace::Naming::body)->object;
     std::set<std::uint32_t> mirrored,
         decided(server.scope_of(decision).begin(), server.scope_of(decision).end());
-    for (const BotsTrace::ScopeChange& change :
-         std::ranges::find(bots.bots, bat, &BotsTrace::Bot::object)->changes) {
+    for (const game::BotsTrace::ScopeChange& change :
+         std::ranges::find(bots.bots, bat, &game::BotsTrace::Bot::object)->changes) {
       if (change.instant_s > decision.instant_s) break;
       if (change.is_in) mirrored.insert(change.object);
       else mirrored.erase(change.object);
@@ -150,18 +150,18 @@ TEST_F(VirtualRunTest, WhatCameWithinTheWindowBeforeASampleIsOneTicksUpdates) {
   experiment_.delay_ms = 0.0;
   settings_.wants_truth = true;
   const RunRecord record = run(first_cell());
-  const BotsTrace bots =
-      read_bots_trace((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string());
+  const game::BotsTrace bots =
+      game::read_bots_trace((folder_ / (name_of(first_cell()) + ".bots.jsonl")).string());
   ASSERT_GT(bots.replicas.size(), 1'000u);
   std::set<std::uint32_t> sizes;
-  for (const BotsTrace::Replica& replica : bots.replicas) sizes.insert(replica.bytes);
+  for (const game::BotsTrace::Replica& replica : bots.replicas) sizes.insert(replica.bytes);
   EXPECT_LE(*sizes.rbegin(), 16u) << "two f32, and a bat's count of keys";
   EXPECT_EQ(
       std::ranges::count_if(bots.replicas, [](const auto& replica) { return replica.bytes == 8u; }),
       std::ranges::count_if(bots.replicas, [](const auto& replica) {
         return replica.bytes > 0 && replica.bytes < 9;
       }));
-  for (const BotsTrace::Sample& sample : bots.samples) {
+  for (const game::BotsTrace::Sample& sample : bots.samples) {
     const auto replicas =
         std::span(bots.replicas).subspan(sample.first, sample.last - sample.first);
     ASSERT_EQ(sample.window_s, 0.05);

@@ -1,5 +1,5 @@
 // The bots' evidence as lines: a header, one line per watched bot, one per sampled replica set.
-#include "loadgen/measure/truth/bots_trace.h"
+#include "game/net/bots_trace.h"
 
 #include <algorithm>
 #include <array>
@@ -12,9 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "game/net/trace_lines.h"
-
-namespace rink::loadgen {
+namespace rink::game {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -150,7 +148,7 @@ class SampleReader : public nlohmann::json_sax<nlohmann::json> {
   std::array<std::int64_t, 6> numbers_{};
 };
 
-BotsTrace::Sample read_sample(game::TraceReader& reader, BotsTrace& trace) {
+BotsTrace::Sample read_sample(TraceReader& reader, BotsTrace& trace) {
   BotsTrace::Sample sample{.first = trace.replicas.size()};
   SampleReader line(trace.replicas);
   if (!nlohmann::json::sax_parse(reader.next_text(), &line))
@@ -172,7 +170,55 @@ BotsTrace::Sample read_sample(game::TraceReader& reader, BotsTrace& trace) {
   return sample;
 }
 
-BotsTrace read_lines(game::TraceReader& reader) {
+}  // namespace
+
+void append(BotsTrace& trace, const BotsTrace& further) {
+  const auto bot = static_cast<std::uint32_t>(trace.bots.size());
+  const std::size_t first = trace.replicas.size();
+  trace.is_complete = trace.is_complete && further.is_complete;
+  trace.bots.insert(trace.bots.end(), further.bots.begin(), further.bots.end());
+  trace.replicas.insert(trace.replicas.end(), further.replicas.begin(), further.replicas.end());
+  for (BotsTrace::Sample sample : further.samples) {
+    sample.bot += bot, sample.first += first, sample.last += first;
+    trace.samples.push_back(sample);
+  }
+}
+
+BotsTrace rounded(BotsTrace trace) {
+  const auto round_position = [](physics::Vector2& position) {
+    for (double& coordinate : position)
+      coordinate = static_cast<double>(rounded(coordinate, nanometres)) / nanometres;
+  };
+  for (BotsTrace::Bot& bot : trace.bots)
+    for (BotsTrace::ScopeChange& change : bot.changes)
+      change.instant_s = 1e-6 * static_cast<double>(rounded(change.instant_s, 1e6));
+  for (BotsTrace::Replica& replica : trace.replicas) {
+    round_position(replica.matched);
+    round_position(replica.displayed);
+  }
+  return trace;
+}
+
+void write_lines(TraceWriter& writer, const BotsTrace& trace) {
+  writer.line({{"rink-bots-evidence", version},
+               {"clients", trace.clients},
+               {"from_s", trace.from_s},
+               {"until_s", trace.until_s},
+               {"is_complete", trace.is_complete},
+               {"bots", trace.bots.size()},
+               {"samples", trace.samples.size()}});
+  assert(std::ranges::is_sorted(trace.samples, {}, &BotsTrace::Sample::displayed_s));
+  for (const BotsTrace::Bot& bot : trace.bots) writer.line(line_of(bot));
+  for (const BotsTrace::Sample& sample : trace.samples) writer.line_of_text(line_of(trace, sample));
+}
+
+void write_trace(const std::string& file, const BotsTrace& trace) {
+  TraceWriter writer(file);
+  write_lines(writer, trace);
+  writer.finish();
+}
+
+BotsTrace read_bots_lines(TraceReader& reader) {
   BotsTrace trace;
   const nlohmann::json header = reader.next();
   reader.require_version(header.value("rink-bots-evidence", 0), version, "the bots' evidence");
@@ -193,46 +239,14 @@ BotsTrace read_lines(game::TraceReader& reader) {
   return trace;
 }
 
-}  // namespace
-
-BotsTrace rounded(BotsTrace trace) {
-  const auto round_position = [](physics::Vector2& position) {
-    for (double& coordinate : position)
-      coordinate = static_cast<double>(rounded(coordinate, nanometres)) / nanometres;
-  };
-  for (BotsTrace::Bot& bot : trace.bots)
-    for (BotsTrace::ScopeChange& change : bot.changes)
-      change.instant_s = 1e-6 * static_cast<double>(rounded(change.instant_s, 1e6));
-  for (BotsTrace::Replica& replica : trace.replicas) {
-    round_position(replica.matched);
-    round_position(replica.displayed);
-  }
-  return trace;
-}
-
-void write_trace(const std::string& file, const BotsTrace& trace) {
-  game::TraceWriter writer(file);
-  writer.line({{"rink-bots-evidence", version},
-               {"clients", trace.clients},
-               {"from_s", trace.from_s},
-               {"until_s", trace.until_s},
-               {"is_complete", trace.is_complete},
-               {"bots", trace.bots.size()},
-               {"samples", trace.samples.size()}});
-  assert(std::ranges::is_sorted(trace.samples, {}, &BotsTrace::Sample::displayed_s));
-  for (const BotsTrace::Bot& bot : trace.bots) writer.line(line_of(bot));
-  for (const BotsTrace::Sample& sample : trace.samples) writer.line_of_text(line_of(trace, sample));
-  writer.finish();
-}
-
 BotsTrace read_bots_trace(const std::string& file) {
-  game::TraceReader reader(file);
+  TraceReader reader(file);
   try {
-    return read_lines(reader);
+    return read_bots_lines(reader);
   } catch (const nlohmann::json::exception& error) {
     reader.refuse(std::string("the bots' evidence as docs/metrics.md describes it (") +
                   error.what() + ")");
   }
 }
 
-}  // namespace rink::loadgen
+}  // namespace rink::game
