@@ -16,7 +16,7 @@ namespace rink::game {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int version = 1;
+constexpr int bots_version = 1;
 constexpr double nanometres = 1e9;
 
 std::int64_t rounded(double number, double parts) {
@@ -200,7 +200,7 @@ BotsTrace rounded(BotsTrace trace) {
 }
 
 void write_lines(TraceWriter& writer, const BotsTrace& trace) {
-  writer.line({{"rink-bots-evidence", version},
+  writer.line({{"rink-bots-evidence", bots_version},
                {"clients", trace.clients},
                {"from_s", trace.from_s},
                {"until_s", trace.until_s},
@@ -221,7 +221,7 @@ void write_trace(const std::string& file, const BotsTrace& trace) {
 BotsTrace read_bots_lines(TraceReader& reader) {
   BotsTrace trace;
   const nlohmann::json header = reader.next();
-  reader.require_version(header.value("rink-bots-evidence", 0), version, "the bots' evidence");
+  reader.require_version(header.value("rink-bots-evidence", 0), bots_version, "the bots' evidence");
   trace.clients = header.at("clients");
   trace.from_s = header.at("from_s");
   trace.until_s = header.at("until_s");

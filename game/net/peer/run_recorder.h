@@ -12,6 +12,7 @@
 #include "game/net/peer/interest/viewer.h"
 #include "game/net/peer/network/peer_network.h"
 #include "game/net/peer/peer_trace.h"
+#include "game/net/peer/player_recorder.h"
 #include "game/net/sampling.h"
 
 namespace rink::game {

@@ -15,6 +15,7 @@
 #include "game/net/bots_trace.h"
 #include "game/net/client/client.h"
 #include "game/net/fom_file.h"
+#include "game/net/peer/peer_trace.h"
 #include "game/net/server_trace.h"
 #include "game/net/trace_lines.h"
 #include "game/replication/trajectory_codec.h"
@@ -25,6 +26,7 @@ namespace rink::loadgen {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 class EvidenceFile : public testing::Test {
  protected:
@@ -212,6 +214,47 @@ TEST_F(EvidenceFile, OfBotsWithASampleThatIsNoneIsRefusedWithItsLineAndWhatWasEx
         std::string(R"({"bot":0,"displayed_s":[1]})"), std::string(R"({"bot":{}})"),
         std::string("[]"), std::string("[[7,8]]"), std::string("7"), std::string("null")})
     EXPECT_EQ(complaint(other), ":3: expected a sample as docs/metrics.md describes it") << other;
+}
+
+/// A peer's player is written as a bot is, whose lines follow the peer's own.
+TEST_F(EvidenceFile, OfAPeerEndsWithItsPlayerAndIsRefusedInAnEarlierVersion) {
+  game::BotsTrace player;
+  player.clients = 2, player.until_s = 3.0;
+  player.bots = {{.object = 5, .changes = {{1.25, 7, true}}}};
+  player.replicas = {{.object = 7,
+                      .bytes = 12,
+                      .is_in_scope = true,
+                      .matched = {1.5, 2.5},
+                      .displayed = {1.75, 2.5}}};
+  player.samples = {{.bot = 0, .displayed_s = 2.0, .matched_s = 1.9, .window_s = 0.1, .last = 1}};
+  game::PeerTrace peer;
+  peer.peer = 1, peer.peer_count = 2, peer.player = player;
+  peer.events = {{game::PeerTrace::Kind::key, 0.5, 0.75, 0}};
+  game::write_trace(file(), peer);
+  const game::PeerTrace read = game::read_peer_trace(file());
+  EXPECT_EQ(read.peer, 1u);
+  ASSERT_TRUE(read.player);
+  ASSERT_EQ(read.player->bots.size(), 1u);
+  EXPECT_EQ(read.player->bots.front().object, 5u);
+  EXPECT_EQ(read.player->bots.front().changes.front().instant_s, 1.25);
+  ASSERT_EQ(read.player->replicas.size(), 1u);
+  EXPECT_EQ(read.player->replicas.front().displayed, player.replicas.front().displayed);
+  game::BotsTrace both = player;
+  append(both, *read.player);
+  ASSERT_EQ(both.samples.size(), 2u);
+  EXPECT_EQ(both.samples.back().bot, 1u);
+  EXPECT_EQ(both.samples.back().first, 1u);
+  EXPECT_EQ(both.samples.back().last, 2u);
+
+  game::TraceWriter writer(file());
+  writer.line({{"rink-peer-evidence", 1}});
+  writer.finish();
+  try {
+    game::read_peer_trace(file());
+    ADD_FAILURE() << "of version 1";
+  } catch (const game::TraceError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a peer's evidence of version 2, found version 1"));
+  }
 }
 
 /// FNV-1a of 64 bits: its offset, then for each byte an exclusive or and its prime.
