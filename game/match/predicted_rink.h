@@ -2,6 +2,7 @@
 // forms; all else on its path, with the necessary delay.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -33,6 +34,11 @@ class PredictedRink {
   /// Applies an update of the server unless one as new was received before; a new match needs a new
   /// PredictedRink.
   void receive(const ReceivedRink& received);
+
+  /// `instant` [s], but not before now(), nor more than `longest_s` beyond the newest update.
+  double within_reach(double instant, double longest_s) const {
+    return std::clamp(instant, now_, std::max(now_, received_time() + longest_s));
+  }
 
   /// Returns to `now` [s] and the newest update, since the server's time has stood still since
   /// then. Held keys stay held.

@@ -30,6 +30,19 @@ MatchSight sight_of(const Scene& scene) {
   return sight;
 }
 
+void drop_scored(MatchSight& sight) {
+  std::erase_if(sight.things, [&](const Thing& thing) {
+    return thing.kind == physics::BodyKind::puck &&
+           (thing.position.x() < 0.0 || thing.position.x() > sight.field.length);
+  });
+}
+
+void show_prediction(const PredictedRink& rink, double delay_s, LinkFigures& figures) {
+  figures.lead_ms = 1e3 * delay_s;
+  figures.corrections = rink.own_corrections().visible_count;
+  figures.last_correction_mm = 1e3 * rink.own_corrections().last_visible;
+}
+
 namespace {
 
 /// Of pucks, those in play are shown, and once the match is over all.

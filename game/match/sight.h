@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "game/match/match_source.h"
+#include "game/match/predicted_rink.h"
 #include "game/physics/movers.h"
 
 namespace rink::game {
@@ -12,6 +13,12 @@ namespace rink::game {
 /// A sight of `scene` before anything has moved: its bats, then its pucks, then its posts, numbered
 /// in this order.
 MatchSight sight_of(const Scene& scene);
+
+/// Drops the pucks that have left the field, into a goal.
+void drop_scored(MatchSight& sight);
+
+/// How far the own bat is shown ahead of all else, by `delay_s` [s], and how it was corrected.
+void show_prediction(const PredictedRink& rink, double delay_s, LinkFigures& figures);
 
 /// Shows time, score and bodies of a game; of pucks, those in play, and once the match is over all.
 /// A body at rest where it was shown last costs nothing.

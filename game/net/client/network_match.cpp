@@ -106,8 +106,7 @@ void NetworkMatch::predict(double now_s) {
   const bool does_run =
       state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown;
   if (!does_run && instant < rink_->now()) rink_->rewind(instant);
-  const double now = std::clamp(
-      instant, rink_->now(), std::max(rink_->now(), rink_->received_time() + predicted_longest_s));
+  const double now = rink_->within_reach(instant, predicted_longest_s);
   press_keys(now);
   move_delay(now_s - now_s_);
   rink_->advance(now, delay_.seconds());

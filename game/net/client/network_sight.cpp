@@ -27,11 +27,7 @@ void NetworkMatch::show_bodies() {
       sight_.things[thing++].velocity = body.velocity;
     }
   sight_.time = rink_->now();
-  const auto is_scored = [&](const Thing& each) {
-    return each.kind == physics::BodyKind::puck &&
-           (each.position.x() < 0.0 || each.position.x() > sight_.field.length);
-  };
-  if (state_.phase != MatchPhase::over) std::erase_if(sight_.things, is_scored);
+  if (state_.phase != MatchPhase::over) drop_scored(sight_);
 }
 
 /// Shows a game that is no match: everything on its path by the updates.
@@ -91,11 +87,7 @@ void NetworkMatch::show_link(double now_s) {
                       .loss = host_.clock().loss(),
                       .tick = counters.frames_received,
                       .payload_bytes_per_s = traffic_.measure(counters.bytes_received, now_s)};
-  if (rink_) {
-    figures.lead_ms = 1e3 * delay_.seconds();
-    figures.corrections = rink_->own_corrections().visible_count;
-    figures.last_correction_mm = 1e3 * rink_->own_corrections().last_visible;
-  }
+  if (rink_) show_prediction(*rink_, delay_.seconds(), figures);
   sight_.link = figures;
 }
 

@@ -128,8 +128,7 @@ void PeerMatch::predict(double now_s) {
   if (!rink_) return;
   const bool does_run = is_playing() && clock_.is_set();
   const double instant = does_run ? clock_.arrival(now_s) : rink_->received_time();
-  const double now = std::clamp(
-      instant, rink_->now(), std::max(rink_->now(), rink_->received_time() + predicted_longest_s));
+  const double now = rink_->within_reach(instant, predicted_longest_s);
   if (does_run) press_keys(now);
   move_delay(now_s - now_s_);
   rink_->advance(now, delay_.seconds());
@@ -163,11 +162,7 @@ void PeerMatch::show_things() {
     if (thing.kind == physics::BodyKind::post) sight_.things.push_back(thing);
     else if (known_[thing.id].window == news_->window || thing.id == news_->own_bat)
       show_thing(thing.id);
-  const auto is_scored = [&](const Thing& thing) {
-    return thing.kind == physics::BodyKind::puck &&
-           (thing.position.x() < 0.0 || thing.position.x() > sight_.field.length);
-  };
-  std::erase_if(sight_.things, is_scored);
+  drop_scored(sight_);
   sight_.zones = news_->zones;
   sight_.score = {news_->goals_left, news_->goals_right};
 }
@@ -236,10 +231,8 @@ void PeerMatch::show_link(double now_s) {
                       .jitter_ms = 1e3 * clock_.jitter_s(),
                       .loss = 0.0,
                       .tick = news_->window,
-                      .payload_bytes_per_s = traffic_.measure(news_->bytes_sent, now_s),
-                      .lead_ms = 1e3 * delay_.seconds()};
-  figures.corrections = rink_->own_corrections().visible_count;
-  figures.last_correction_mm = 1e3 * rink_->own_corrections().last_visible;
+                      .payload_bytes_per_s = traffic_.measure(news_->bytes_sent, now_s)};
+  show_prediction(*rink_, delay_.seconds(), figures);
   sight_.link = figures;
 }
 
