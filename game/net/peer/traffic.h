@@ -1,8 +1,11 @@
 // The purposes of peers' messages.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "game/peer/protocol.h"
 
@@ -27,6 +30,15 @@ inline Traffic traffic_of(peer::Subject about) {
       break;
   }
   return Traffic::halo;
+}
+
+/// `content` behind its purpose, as it is sent.
+inline std::vector<std::uint8_t> with_purpose(Traffic about,
+                                              std::span<const std::uint8_t> content) {
+  std::vector<std::uint8_t> bytes(content.size() + 1);
+  bytes[0] = static_cast<std::uint8_t>(about);
+  std::ranges::copy(content, bytes.begin() + 1);
+  return bytes;
 }
 
 using TrafficBytes = std::array<std::uint64_t, traffic_count>;

@@ -17,10 +17,8 @@ PeerStation::PeerStation(const game::SharedGame& game, const game::InterestSetti
       node_(game, settings, division, number,
             [this](peer::PeerNumber to, game::Traffic about,
                    const std::vector<std::uint8_t>& content) {
-              std::vector<std::uint8_t> words(content.size() + 1);
-              words[0] = static_cast<std::uint8_t>(about);
-              if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
-              const std::vector<std::byte> frame = game::framed(game::FrameKind::mail, words);
+              const std::vector<std::byte> frame =
+                  game::framed(game::FrameKind::mail, game::with_purpose(about, content));
               std::vector<std::uint8_t>& outbox = outboxes_[to];
               const std::size_t before = outbox.size();
               outbox.resize(before + frame.size());

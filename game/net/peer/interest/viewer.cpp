@@ -2,7 +2,6 @@
 #include "game/net/peer/interest/viewer.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "im/filter.h"
 #include "rti/wire/stream.h"
@@ -43,10 +42,7 @@ void Viewer::begin(const peer::Session& session) {
       [this](peer::PeerNumber to, Traffic about, const std::vector<std::uint8_t>& content) {
         sent_[static_cast<std::size_t>(about)] += content.size();
         ++messages_sent_[static_cast<std::size_t>(about)];
-        std::vector<std::uint8_t> words(content.size() + 1);
-        words[0] = static_cast<std::uint8_t>(about);
-        if (!content.empty()) std::memcpy(words.data() + 1, content.data(), content.size());
-        side_channel_.send_aside(to, std::move(words));
+        side_channel_.send_aside(to, with_purpose(about, content));
       });
   interest_->set_members(members_, bats());
   interest_->note_places();
