@@ -3,11 +3,16 @@
 
 #include <cassert>
 
+#include "game/net/view.h"
 #include "game/replication/names.h"
 #include "rti/time/federate_clock.h"
 
 namespace rink::game {
 namespace {
+
+physics::Vector2 vector_of(const Position& position) {
+  return {static_cast<double>(position.x), static_cast<double>(position.y)};
+}
 
 bool is_state_on_entry(const ReplicaSet& replicas, rti::ObjectHandle object) {
   const EntityReplica* const entity = replicas.find(object);
@@ -21,9 +26,7 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
       settings_(settings),
       replicas_(model),
       ambassador_(fom, *this),
-      view_({.fraction = settings.view_fraction,
-             .area = settings.view_area,
-             .margin = settings.view_margin}) {
+      view_(settings.view_margin) {
   if (settings.extrapolates) replicas_.extrapolate();
   ambassador_.join(settings.federation, settings.name,
                    settings.only_watches ? watcher_federate_type : player_federate_type);
@@ -73,7 +76,10 @@ void Client::subscribe_once_seated() {
 }
 
 void Client::look_around(const Position& centre) {
-  ambassador_.set_region(region_, view_.look_around(centre, *replicas_.field()));
+  const Extent& field = *replicas_.field();
+  const double half_side =
+      view_half_side(settings_.view_area, settings_.view_fraction, field.length, field.width);
+  ambassador_.set_region(region_, view_.look_around(vector_of(centre), half_side));
   ambassador_.commit_region_modifications(region_);
 }
 
@@ -82,7 +88,7 @@ void Client::follow_bat(double instant) {
   if (!settings_.declares_regions || own == nullptr || !own->is_placed) return;
   if (state() >= State::refused || !ambassador_.is_joined()) return;
   const Position there = rounded(own->position_at(instant));
-  if (view_.is_left_by(there)) look_around(there);
+  if (view_.is_left_by(vector_of(there))) look_around(there);
 }
 
 void Client::press(Key key, double instant) { send_key(model_.key_down, key, instant); }

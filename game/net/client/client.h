@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "game/model/key.h"
-#include "game/net/client/following_view.h"
 #include "game/net/client/interest_questions.h"
 #include "game/net/client/joining.h"
 #include "game/net/client/match_remote.h"
 #include "game/net/client/receipt_log.h"
 #include "game/net/client/turn_taker.h"
+#include "game/net/following_view.h"
 #include "game/replication/replica_set.h"
 #include "rti/ambassador.h"
 

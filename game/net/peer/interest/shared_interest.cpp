@@ -47,6 +47,7 @@ SharedInterest::SharedInterest(const SharedGame& game, const InterestSettings& s
       peer_(peer),
       division_(division),
       send_(std::move(send)),
+      view_(settings.margin),
       interest_(settings.scheme, filter_settings(game.scene(), settings.cell_size), settings.policy,
                 roles_of(game.start(), settings.always_relevant), game.extent_max()),
       replicas_(interest_.sends_trajectories(), Drag::of(game.scene().world),
@@ -91,18 +92,13 @@ void SharedInterest::look_around() {
   if (!interest_.is_selective() || bat() == no_bat) return;
   bool is_new = false;
   if (const std::optional<physics::Vector2> centre = bat_place()) {
-    const double reach = settings_.half_side + settings_.margin;
-    const im::Region region{centre->x() - reach, centre->y() - reach, centre->x() + reach,
-                            centre->y() + reach};
-    const physics::Vector2 before{0.5 * (static_cast<double>(encoded_interest_.low_x) +
-                                         static_cast<double>(encoded_interest_.high_x)),
-                                  0.5 * (static_cast<double>(encoded_interest_.low_y) +
-                                         static_cast<double>(encoded_interest_.high_y))};
-    const bool is_near = encoded_interest_.form == EncodedInterest::Form::region &&
-                         settings_.margin > 0.0 &&
-                         (*centre - before).cwiseAbs().maxCoeff() < 0.5 * settings_.margin;
+    // With cells each step counts, which sends nothing within one.
+    const bool is_near =
+        encoded_interest_.form == EncodedInterest::Form::region && !view_.is_left_by(*centre);
     const EncodedInterest encoded =
-        is_near ? encoded_interest_ : interest_at(region, interest_.cell_size());
+        is_near
+            ? encoded_interest_
+            : interest_at(view_.look_around(*centre, settings_.half_side), interest_.cell_size());
     is_new = encoded != encoded_interest_;
     encoded_interest_ = encoded;
   }

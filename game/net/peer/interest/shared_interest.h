@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "game/net/following_view.h"
 #include "game/net/peer/interest/key_counts.h"
 #include "game/net/peer/interest/peer_replicas.h"
 #include "game/net/peer/interest/sender_interest.h"
@@ -110,6 +111,7 @@ class SharedInterest {
   const peer::Peer& peer_;
   const peer::Division& division_;
   Send send_;
+  FollowingView view_;
   SenderInterest interest_;
   PeerReplicas replicas_;
   std::vector<peer::PeerNumber> members_;  ///< sorted
