@@ -25,6 +25,7 @@ Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places,
   Cuts cuts(field);
   cuts.root_ = cuts.cut({0.0, 0.0, field.length, field.width}, places, 0, peer_count);
   assert(cuts.nodes_.size() == 2 * std::size_t{peer_count} - 1);
+  cuts.list_peers();
   if constexpr (checks_whole_structures) cuts.check();
   return cuts;
 }
@@ -32,8 +33,9 @@ Cuts Cuts::by_count(const physics::Field& field, std::vector<Vector2> places,
 void Cuts::check() const {
   assert(root_ < nodes_.size());
   assert(checked_count(root_, {0.0, 0.0, field_.length, field_.width}) == nodes_.size());
-  const std::vector<PeerNumber> all = peers();
-  assert(std::ranges::adjacent_find(all, std::greater_equal<>()) == all.end());
+  [[maybe_unused]] const std::vector<PeerNumber> all = peers_below(root_);
+  assert(std::ranges::adjacent_find(peers_, std::greater_equal<>()) == peers_.end());
+  assert(std::ranges::is_permutation(peers_, all));
 }
 
 /// The number of nodes in that part, each of which is checked.
@@ -103,16 +105,12 @@ std::vector<PeerNumber> Cuts::peers_below(std::size_t node) const {
   return peers;
 }
 
-std::vector<PeerNumber> Cuts::peers() const {
-  std::vector<PeerNumber> all = peers_below(root_);
-  std::sort(all.begin(), all.end());
-  return all;
+void Cuts::list_peers() {
+  peers_ = peers_below(root_);
+  std::sort(peers_.begin(), peers_.end());
 }
 
-bool Cuts::has(PeerNumber peer) const {
-  const std::vector<PeerNumber> all = peers_below(root_);
-  return std::find(all.begin(), all.end(), peer) != all.end();
-}
+bool Cuts::has(PeerNumber peer) const { return std::ranges::binary_search(peers_, peer); }
 
 /// The leaf of `peer`, and its box.
 const Cuts::Node* Cuts::find(std::size_t node, const Box& box, PeerNumber peer, Box& found) const {
@@ -150,6 +148,7 @@ Cuts Cuts::without(PeerNumber peer) const {
   assert(has(peer) && !is_leaf(root_));
   Cuts cuts(field_);
   cuts.root_ = copied(root_, peer, cuts.nodes_);
+  cuts.list_peers();
   assert(!cuts.has(peer) && cuts.nodes_.size() + 2 == nodes_.size());
   if constexpr (checks_whole_structures) cuts.check();
   return cuts;
@@ -171,6 +170,7 @@ Cuts Cuts::with(PeerNumber newcomer, PeerNumber of) const {
                        .is_along_x = is_long,
                        .side = side,
                        .peer = 0};
+  cuts.list_peers();
   if constexpr (checks_whole_structures) cuts.check();
   return cuts;
 }

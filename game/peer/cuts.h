@@ -31,7 +31,7 @@ class Cuts {
   /// part for `newcomer`, which must have none.
   Cuts with(PeerNumber newcomer, PeerNumber of) const;
   /// The peers with zones, sorted, and the areas of these [m^2].
-  std::vector<PeerNumber> peers() const;
+  const std::vector<PeerNumber>& peers() const { return peers_; }
   double area_of(PeerNumber peer) const;
   /// Each cut moved half of the way to where its parts' loads per peer would be equal if each were
   /// spread evenly, provided that one of them is above `tolerance` times the mean; a part keeps a
@@ -50,7 +50,7 @@ class Cuts {
     std::vector<Node> nodes;
     const bool is_whole =
         exchange_part(stream, root_, {0.0, 0.0, field_.length, field_.width}, 0, nodes);
-    if (is_whole) nodes_ = std::move(nodes), root_ = 0;
+    if (is_whole) nodes_ = std::move(nodes), root_ = 0, list_peers();
     return is_whole;
   }
 
@@ -98,6 +98,7 @@ class Cuts {
                   PeerNumber peer_count);
   void lay_out(std::size_t node, const Box& box, std::vector<Zone>& zones) const;
   std::vector<PeerNumber> peers_below(std::size_t node) const;
+  void list_peers();
   std::size_t checked_count(std::size_t node, const Box& box) const;
   bool shift(std::size_t node, const Box& from, const Box& to, std::span<const double> loads,
              double tolerance);
@@ -105,6 +106,7 @@ class Cuts {
   physics::Field field_;
   std::vector<Node> nodes_;
   std::size_t root_ = 0;
+  std::vector<PeerNumber> peers_;  ///< sorted: asked for many times in every window
 };
 
 }  // namespace rink::peer

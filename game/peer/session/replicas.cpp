@@ -38,7 +38,8 @@ void Replicas::rewind(std::uint64_t step) {
 
 void Replicas::drop_others(const State& now, const State& next) {
   for (PeerNumber peer = 0; peer < replicas_.size(); ++peer)
-    if (peer != number_ && !keeps(peer, now) && !keeps(peer, next)) replicas_[peer] = {};
+    if (peer != number_ && !replicas_[peer].is_empty() && !keeps(peer, now) && !keeps(peer, next))
+      replicas_[peer] = {};
 }
 
 std::vector<Key> Replicas::log(PeerNumber peer) const {
