@@ -347,12 +347,13 @@ bool exchange_instants(Stream& stream, bool are_there, Verdict& message) {
          message.critical.size() <= Verdict::critical_max;
 }
 
+/// `is_alone`: it tells its window itself.
 template <class Stream>
-bool exchange(Stream& stream, Verdict& message) {
+bool exchange(Stream& stream, Verdict& message, bool is_alone = true) {
   Head head({message.accepts, message.is_about_instants(), message.leaves, !message.listed.empty(),
              !message.goals.empty(), !message.admission.is_empty(), message.is_for_strangers()});
-  if (!head.exchange(stream) || !stream.varint(message.window) || !stream.number(message.halo) ||
-      !(message.halo >= 0.0f))
+  if (!head.exchange(stream) || (is_alone && !stream.varint(message.window)) ||
+      !stream.number(message.halo) || !(message.halo >= 0.0f))
     return false;
   message.accepts = head.has(0), message.leaves = head.has(2);
   if (!stream.varint(message.at_once_max) || !stream.varint(message.events) ||

@@ -9,6 +9,16 @@
 
 namespace rink::peer {
 
+namespace {
+
+template <class Message, class... Instants>
+std::string fault_in(const std::optional<Validator>& validator, const Message& message,
+                     Instants... instants) {
+  return validator ? validator->fault_of(message, instants...) : std::string();
+}
+
+}  // namespace
+
 PeerCounters& PeerCounters::operator+=(const PeerCounters& other) {
   windows += other.windows, repeats += other.repeats, own_events += other.own_events,
       ghost_events += other.ghost_events, hand_overs += other.hand_overs;
@@ -71,31 +81,35 @@ void Peer::begin(double until) {
   if constexpr (checks_whole_structures) check();
 }
 
-template <class Message, class... Instants>
-bool Peer::is_sound(PeerNumber from, const Message& message, Instants... instants) {
-  const std::string fault = validator_ ? validator_->fault_of(message, instants...) : std::string();
-  return fault.empty() || accusation_.report(from, fault);
-}
-
 void Peer::receive(PeerNumber from, Claims claims) {
-  if (is_sound(from, claims, window_.end)) check_.receive(from, std::move(claims));
+  const std::string fault = fault_in(validator_, claims, window_.end);
+  if (fault.empty()) check_.receive(from, std::move(claims));
+  else accusation_.report(from, fault);
 }
 
 void Peer::receive(PeerNumber from, std::span<const Press> presses) {
   for (const Press& press : presses)
-    if (is_sound(from, press)) players_.receive_early(from, press);
+    if (const std::string fault = fault_in(validator_, press); fault.empty())
+      players_.receive_early(from, press);
+    else accusation_.report(from, fault);
   const bool is_prepared = now() == window_.start;  // and not played yet
   if (is_prepared) players_.stamp_unseen(window_.start, keys_);
 }
 
-void Peer::receive(PeerNumber from, const Verdict& verdict) {
+std::string Peer::fault_of(const Verdict& verdict) const {
   if (verdict.window != window_.number)
-    accusation_.report(from, "judges window " + std::to_string(verdict.window) + " instead of " +
-                                 std::to_string(window_.number));
+    return "judges window " + std::to_string(verdict.window) + " instead of " +
+           std::to_string(window_.number);
   if (const std::size_t due = verdicts_.asked().size(); verdict.reports.size() != due)
-    accusation_.report(from, "reports on " + std::to_string(verdict.reports.size()) +
-                                 " instants instead of " + std::to_string(due));
-  if (is_sound(from, verdict)) verdicts_.receive(from, verdict);
+    return "reports on " + std::to_string(verdict.reports.size()) + " instants instead of " +
+           std::to_string(due);
+  return fault_in(validator_, verdict);
+}
+
+void Peer::receive(PeerNumber from, const Verdict& verdict) {
+  const std::string fault = fault_of(verdict);
+  if (fault.empty()) verdicts_.receive(from, verdict);
+  else accusation_.report(from, fault);
 }
 
 void Peer::receive(PeerNumber from, Handover handover) {
@@ -104,7 +118,9 @@ void Peer::receive(PeerNumber from, Handover handover) {
   if (const std::uint32_t due = is_expected ? window_.number : 0; handover.window != due)
     accusation_.report(from, "hands over for window " + std::to_string(handover.window) +
                                  " instead of " + std::to_string(due));
-  if (is_sound(from, handover, told_)) handovers_.receive(from, std::move(handover));
+  const std::string fault = fault_in(validator_, handover, told_);
+  if (fault.empty()) handovers_.receive(from, std::move(handover));
+  else accusation_.report(from, fault);
 }
 
 /// Checks all own bodies anew.

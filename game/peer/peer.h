@@ -106,6 +106,9 @@ class Peer {
   /// As LivePlayers::receive_early; also of own players, and at any time.
   void receive(PeerNumber from, std::span<const Press> presses);
   const Verdict& judge();
+  /// Why another peer's verdict cannot be on the run just played, or cannot be true; empty if it
+  /// can.
+  std::string fault_of(const Verdict& verdict) const;
   void receive(PeerNumber from, const Verdict& verdict);
   Outcome conclude();
   const WindowVerdicts& verdicts() const { return verdicts_; }
@@ -139,8 +142,6 @@ class Peer {
   void check() const;
 
  private:
-  template <class Message, class... Instants>
-  bool is_sound(PeerNumber from, const Message& message, Instants... instants);
   void settle(std::vector<std::uint32_t> candidates);
 
   /// Bodies and contacts that were taken, until the first window begins.

@@ -63,6 +63,14 @@ class LossyOffice {
         if (is_one(a) != is_one(b)) line(a, b).is_cut = true;
     has_come_.notify_all();
   }
+  /// No word of those for whom `is_one` is true comes to the others any more.
+  void mute(const std::function<bool(End)>& is_one) {
+    const std::lock_guard lock(mutex_);
+    for (End a = 0; a < ends_max; ++a)
+      for (End b = 0; b < ends_max; ++b)
+        if (is_one(a) && !is_one(b)) line(a, b).is_cut = true;
+    has_come_.notify_all();
+  }
   void finish(End peer) {
     const std::lock_guard lock(mutex_);
     has_finished_[peer] = true;
@@ -189,6 +197,8 @@ class LossyMail final : public Mail {
         before_word_(std::move(before_word)) {}
   /// What is said may be changed on its way.
   std::function<void(std::vector<std::uint8_t>&)> on_the_way = [](std::vector<std::uint8_t>&) {};
+  /// And what arrives.
+  std::function<void(std::vector<std::uint8_t>&)> on_arrival = [](std::vector<std::uint8_t>&) {};
   /// How often it then arrives.
   std::function<int(PeerNumber, std::span<const std::uint8_t>)> copies =
       [](PeerNumber, std::span<const std::uint8_t>) { return 1; };
@@ -205,7 +215,9 @@ class LossyMail final : public Mail {
     before_word_(++words_);
     std::vector<std::pair<PeerNumber, End>> ends;
     for (const PeerNumber peer : from) ends.emplace_back(peer, ends_.at(peer));
-    return office_.receive(own_, ends, counted_);
+    auto word = office_.receive(own_, ends, counted_);
+    on_arrival(word.second);
+    return word;
   }
   void part(PeerNumber peer, bool is_lost) override {
     if (ends_.contains(peer)) office_.part(own_, ends_.at(peer), is_lost);

@@ -52,6 +52,9 @@ class Play {
   /// Told what the peer of that end says, before it goes out, to be changed.
   std::function<void(End, std::vector<std::uint8_t>&)> on_the_way =
       [](End, std::vector<std::uint8_t>&) {};
+  /// And what it receives.
+  std::function<void(End, std::vector<std::uint8_t>&)> on_arrival =
+      [](End, std::vector<std::uint8_t>&) {};
   /// Told before each advance.
   std::function<void(Session&, End)> before_window = [](Session&, End) {};
   /// How often what the peer of that end says to a peer arrives.
@@ -61,6 +64,7 @@ class Play {
   bool is_live = false;
   std::uint32_t spare_bats = 0;  ///< of a live scene: for newcomers
   std::uint32_t balance_windows = 0;
+  std::size_t tree_from = SessionSettings{}.tree_from;
 
   void run() {
     const SharedScene start =
@@ -154,6 +158,7 @@ class Play {
     // Snapshots come often, and take several steps.
     settings.standby = {.replay_events = 20 + 150 * (number_ % 4), .piece_bytes = 900};
     settings.balance_windows = balance_windows;
+    settings.tree_from = tree_from;
     settings.goals = goals;
     settings.bat_count = is_live ? static_cast<std::uint32_t>(bats_.size()) : 0;
     const std::uint32_t seated = settings.bat_count - std::min(settings.bat_count, spare_bats);
@@ -186,6 +191,7 @@ class Play {
     LossyMail mail(office_, number, others, others,
                    [&](std::uint64_t word) { before_word(number, word); });
     mail.on_the_way = [&](std::vector<std::uint8_t>& bytes) { on_the_way(number, bytes); };
+    mail.on_arrival = [&](std::vector<std::uint8_t>& bytes) { on_arrival(number, bytes); };
     mail.copies = [&](PeerNumber to, std::span<const std::uint8_t> bytes) {
       return copies(number, to, bytes);
     };

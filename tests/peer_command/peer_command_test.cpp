@@ -178,14 +178,15 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
   };
   Hello hello;
   hello.session_fingerprint = session_fingerprint, hello.info.place = {"127.0.0.1", 1};
-  hello.version = peer_protocol_version + 1;
-  const auto version = answer_to(hello);
-  ASSERT_TRUE(version);
-  EXPECT_EQ(version->kind, RefusalKind::wrong_version);
-  EXPECT_THAT(version->reason,
-              HasSubstr("speaks version " + std::to_string(peer_protocol_version + 1) +
-                        " of the peers' protocol, here it is version " +
-                        std::to_string(peer_protocol_version)));
+  for (const std::uint32_t theirs : {peer_protocol_version + 1, peer_protocol_version - 1}) {
+    hello.version = theirs;
+    const auto version = answer_to(hello);
+    ASSERT_TRUE(version);
+    EXPECT_EQ(version->kind, RefusalKind::wrong_version);
+    EXPECT_THAT(version->reason, HasSubstr("speaks version " + std::to_string(theirs) +
+                                           " of the peers' protocol, here it is version " +
+                                           std::to_string(peer_protocol_version)));
+  }
   hello.version = peer_protocol_version;
   ++hello.session_fingerprint.self_test;
   const auto build = answer_to(hello);

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "game/peer/verdict_tree.h"
 #include "im/basics/fnv_hash.h"
 
 namespace rink::peer {
@@ -81,7 +82,9 @@ bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes,
   if (!settings_.is_replicated || !read(bytes, loss)) give_up(from, "sent what is no message");
   std::string fault = validator_.fault_of(loss);
   if (fault.empty()) fault = Losses::fault_of(loss, now);
-  if (fault.empty() && Marks::differ(marks_.told(now, before_ ? *before_ : now), loss.marks))
+  // By the tree it may be who told it: all look for the link when they agree on who is lost.
+  if (fault.empty() && !settings_.agrees_by_tree(now.members.size()) &&
+      Marks::differ(marks_.told(now, before_ ? *before_ : now), loss.marks))
     fault = "has told this one something else than the others";
   if (!fault.empty()) give_up(from, fault);
   const bool is_missed =
@@ -135,8 +138,54 @@ void Inbox::tell(const State& now) {
   }
 }
 
+/// Below a link where the decision was changed all have the changed one. Where two ends differ the
+/// one or the other lies, and nobody else can know which; but who differs with several does.
+std::vector<Losses::Sentence> Inbox::parted_links(const State& now) const {
+  struct Link {
+    PeerNumber above, below;
+  };
+  std::vector<Link> links;
+  std::vector<std::size_t> counts(now.members.back() + 1, 0);
+  const VerdictTree tree(now.members.size());
+  const auto marks_of = [&](PeerNumber peer) {
+    if (peer == settings_.number) return marks_.told(now, before_ ? *before_ : now);
+    return losses_.heard(peer) ? losses_.heard(peer)->marks : std::vector<Mark>();
+  };
+  for (std::size_t place = 1; place < now.members.size(); ++place) {
+    const Link link{now.members[tree.parent(place)], now.members[place]};
+    if (losses_.is_away(link.below) || losses_.is_away(link.above) ||
+        !Marks::differ(marks_of(link.above), marks_of(link.below)))
+      continue;
+    links.push_back(link), ++counts[link.above], ++counts[link.below];
+  }
+  std::vector<Losses::Sentence> sentences;
+  const auto is_named = [&](PeerNumber peer) {
+    return std::ranges::find(sentences, peer, &Losses::Sentence::peer) != sentences.end();
+  };
+  for (const PeerNumber peer : now.members)
+    if (counts[peer] > 1)
+      sentences.push_back({peer, "peer " + std::to_string(peer) +
+                                     " differs with several about what all have decided"});
+  for (const auto& [above, below] : links)
+    if (!is_named(above) && !is_named(below))
+      for (const PeerNumber end : {above, below})
+        sentences.push_back({end, "peers " + std::to_string(above) + " and " +
+                                      std::to_string(below) +
+                                      " differ about what all have decided"});
+  return sentences;
+}
+
 bool Inbox::has_settled(const State& now) {
-  const std::vector<Losses::Sentence> sentences = losses_.settle(now);
+  const bool is_by_tree = settings_.agrees_by_tree(now.members.size());
+  if (is_by_tree)
+    if (const std::vector<Losses::Sentence> parted = parted_links(now); !parted.empty()) {
+      losses_.drop_doubts();
+      for (const auto& [peer, what] : parted)
+        if (peer == settings_.number) halt(what + ": it halts, others may go on");
+      for (const auto& [peer, what] : parted) lose(peer, what, false);
+      return false;
+    }
+  const std::vector<Losses::Sentence> sentences = losses_.settle(now, is_by_tree);
   for (const auto& [peer, what] : sentences) {
     if (peer == settings_.number)
       halt(
@@ -159,7 +208,8 @@ void Inbox::give_up(PeerNumber peer, const std::string& fault) {
   assert(peer != settings_.number && !fault.empty());
   const std::string what = "peer " + std::to_string(peer) + " " + fault;
   if (!settings_.is_replicated) throw ProtocolError(what);
-  lose(peer, what, false);
+  if (are_faults_deferred_) losses_.doubt(peer, what), must_recover_ = true;
+  else lose(peer, what, false);
   throw LossTold(peer, what);
 }
 

@@ -77,16 +77,21 @@ class Inbox {
   /// begins one that ends with a loss, that peer's or its own: more are of one that asks for peers
   /// which answer, and would stop the session for ever.
   static constexpr std::uint32_t alarms_max = 16;
-  /// When all agree on losses: true if that is all, false if some are given up now.
+  /// When all agree on losses: true if that is all, false if some are given up now: those whom most
+  /// miss, or who accuse others without need; and, by the tree, the ends of a link of which one has
+  /// handed down another decision than the other says.
   bool has_settled(const State& now);
 
   /// `peer` is lost, which ends the session if nobody has replicas.
   void note_gone(PeerNumber peer, const std::string& what, bool has_finished = false);
-  /// A peer that sends an impossible message counts as lost. `fault` continues "peer 3".
+  /// A peer that sends an impossible message counts as lost. `fault` continues "peer 3". While
+  /// faults are deferred it is doubted: who was told another decision sends what is impossible
+  /// here.
   [[noreturn]] void give_up(PeerNumber peer, const std::string& fault);
   void give_up_accused(const Accusation& accusation) {
     if (accusation.is_made()) give_up(accusation.peer(), accusation.fault());
   }
+  void defer_faults(bool are_deferred) { are_faults_deferred_ = are_deferred; }
   [[noreturn]] void halt(const std::string& what) const;
 
   const Losses& losses() const { return losses_; }
@@ -111,6 +116,7 @@ class Inbox {
  private:
   void lose(PeerNumber peer, const std::string& what, bool has_finished);
   void count_alarm(PeerNumber from);
+  std::vector<Losses::Sentence> parted_links(const State& now) const;
   void await_result(PeerNumber from, std::uint32_t result, const State& now);
 
   const SessionSettings& settings_;
@@ -124,7 +130,7 @@ class Inbox {
   std::vector<std::uint32_t> alarms_;  ///< by peer: recoveries that it began since the last loss
   std::size_t gone_before_ = 0;        ///< how many were lost at the last recovery
   std::vector<PeerNumber> confirmed_;  ///< who has the same result
-  bool must_recover_ = false, is_newcomer_;
+  bool must_recover_ = false, is_newcomer_, are_faults_deferred_ = false;
 };
 
 }  // namespace rink::peer

@@ -13,7 +13,8 @@ bool Losses::note(PeerNumber peer, const std::string& what, bool has_finished) {
   if (is_gone(peer)) return false;
   last_ = what;
   gone_.insert(std::ranges::upper_bound(gone_, peer), peer);
-  std::erase_if(missed_, [&](const Missed& one) { return one.peer == peer; });
+  for (std::vector<Missed>* list : {&missed_, &doubted_})
+    std::erase_if(*list, [&](const Missed& one) { return one.peer == peer; });
   return true;
 }
 
@@ -28,11 +29,17 @@ bool Losses::miss(PeerNumber peer, const std::string& what) {
   return true;
 }
 
+void Losses::doubt(PeerNumber peer, const std::string& what) {
+  assert(peer != own_ && !what.empty());
+  if (!is_away(peer)) doubted_.push_back({peer, what});
+}
+
 /// The peers that this one, or a peer that it hears, hears no more. Each loss begins the questions
 /// anew, or those that it has settled would go round for ever.
 std::vector<PeerNumber> Losses::asked() const {
   std::vector<PeerNumber> peers;
-  for (const Missed& one : missed_) peers.push_back(one.peer);
+  for (const std::vector<Missed>* list : {&missed_, &doubted_})
+    for (const Missed& one : *list) peers.push_back(one.peer);
   for (PeerNumber from = 0; from < heard_.size(); ++from) {
     if (!heard_[from] || is_away(from) || heard_[from]->gone != gone_) continue;
     for (const Question& question : heard_[from]->questions)
@@ -104,17 +111,18 @@ Losses::Votes Losses::votes_on(PeerNumber peer, const State& now,
 }
 
 std::string Losses::reason(PeerNumber peer) const {
-  const auto missed = std::ranges::find(missed_, peer, &Missed::peer);
-  return missed == missed_.end() ? "peer " + std::to_string(peer) + " is gone, according to most"
-                                 : missed->what;
+  for (const std::vector<Missed>* list : {&missed_, &doubted_})
+    for (const Missed& one : *list)
+      if (one.peer == peer) return one.what;
+  return "peer " + std::to_string(peer) + " is gone, according to most";
 }
 
-std::vector<Losses::Sentence> Losses::settle(const State& now) {
+std::vector<Losses::Sentence> Losses::settle(const State& now, bool are_doubts_right) {
   std::vector<Sentence> sentences;
   for (const PeerNumber peer : asked()) {
     if (std::ranges::find(sentences, peer, &Sentence::peer) != sentences.end()) continue;
     const Votes votes = votes_on(peer, now, sentences);
-    if (votes.missing.size() > votes.hearing) {
+    if (votes.missing.size() > votes.hearing || (are_doubts_right && votes.missing.empty())) {
       sentences.push_back({peer, reason(peer)});
       continue;
     }
@@ -124,6 +132,7 @@ std::vector<Losses::Sentence> Losses::settle(const State& now) {
   }
   for (std::optional<Loss>& told : heard_)
     if (told) told->questions.clear();
+  doubted_.clear();
   return sentences;
 }
 

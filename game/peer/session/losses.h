@@ -24,6 +24,9 @@ class Losses {
   /// if it is news.
   bool miss(PeerNumber peer, const std::string& what);
   bool misses(PeerNumber peer) const;
+  /// `peer` has sent what cannot be, unless this one was told another decision than it: all ask
+  /// about it, and compare.
+  void doubt(PeerNumber peer, const std::string& what);
   /// Nothing can be said to it or heard of it.
   bool is_away(PeerNumber peer) const { return is_gone(peer) || misses(peer); }
   bool has_missed() const { return !missed_.empty(); }
@@ -54,8 +57,11 @@ class Losses {
     std::string what;
   };
   /// When all agree: a peer goes that more of the others miss than hear; otherwise those that miss
-  /// it. The questions are answered with that.
-  std::vector<Sentence> settle(const State& now);
+  /// it. One goes, too, that was asked about and is missed by nobody, if `are_doubts_right`. The
+  /// questions are answered with that.
+  std::vector<Sentence> settle(const State& now, bool are_doubts_right = false);
+  /// As if nobody had been doubted.
+  void drop_doubts() { doubted_.clear(); }
   void make_room(PeerNumber slots);
 
   enum class Majority : std::uint8_t { none, doubtful, sure };
@@ -85,7 +91,7 @@ class Losses {
 
   PeerNumber own_;
   std::vector<PeerNumber> gone_, finished_;
-  std::vector<Missed> missed_;
+  std::vector<Missed> missed_, doubted_;
   std::vector<std::optional<Loss>> heard_;  ///< by peer
   std::string last_;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/peer/session/others_states.h"
+#include "game/peer/session/tree_agreement.h"
 #include "game/peer/standby/packed_states.h"
 #include "game/peer/standby/part_at_start.h"
 #include "im/basics/checked.h"
@@ -101,6 +102,7 @@ void Session::play_window() {
 }
 
 void Session::play_stretch() {
+  inbox_.defer_faults(settings_.agrees_by_tree(now_.members.size()));
   announce();
   assert(now_.has(settings_.number));
   State next = now_;
@@ -122,10 +124,16 @@ void Session::play_stretch() {
                         !settings_.takes_latecomers;
   const auto agree_all = [&] {
     if (is_short) return peer::agree(*peer_, settings_.peer_count, mail_);
+    std::vector<std::vector<std::uint8_t>> words;
+    if (settings_.agrees_by_tree(now_.members.size())) {
+      words.push_back(TreeAgreement(now_, *peer_, inbox_, mail_).run());
+      inbox_.give_up_accused(peer_->accusation());
+      if (settings_.is_replicated) inbox_.note_round(now_, words);
+      return;
+    }
     exchange(all_but(settings_.number, now_.members),
              [&](PeerNumber) { return peer_->verdicts().own(); });
     if (!settings_.is_replicated) return;
-    std::vector<std::vector<std::uint8_t>> words;
     for (const PeerNumber peer : now_.members) words.push_back(written(peer_->verdicts().of(peer)));
     inbox_.note_round(now_, words);
   };

@@ -6,6 +6,7 @@
 
 #include "game/peer/session/part_change.h"
 #include "game/peer/session/session.h"
+#include "game/peer/verdict_tree.h"
 #include "im/basics/checked.h"
 
 namespace rink::peer {
@@ -28,14 +29,15 @@ std::string why_a_minority_halts(const State& now, const Losses& losses) {
 /// What its sender has said before it knew of a loss.
 bool is_of_before(std::span<const std::uint8_t> bytes, const physics::Field& field) {
   const auto is_one = [&](auto message) { return read(bytes, message); };
-  return is_one(Claims{}) || is_one(Verdict{}) || is_one(Handover{}) || is_one(PartRecord{}) ||
-         is_one(SnapshotPiece{}) || is_one(FaceOffWord{}) ||
+  return is_one(Claims{}) || is_one(Verdict{}) || is_one(VerdictBundle{}) || is_one(Handover{}) ||
+         is_one(PartRecord{}) || is_one(SnapshotPiece{}) || is_one(FaceOffWord{}) ||
          is_one(Entry{.state = {.cuts = Cuts::whole(field)}});
 }
 
 }  // namespace
 
 void Session::recover() {
+  inbox_.defer_faults(false);
   while (!agree()) {
   }
   standby_.rewind(now_.step);

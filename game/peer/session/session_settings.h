@@ -34,6 +34,12 @@ struct SessionSettings {
   bool takes_latecomers = false;     ///< bats may be seated that none of `players` has
   bool keeps_to_neighbours = true;   ///< otherwise claims and handovers go to all members, so that
                                      ///< what is sent beside them stays in order with all
+  /// From so many members on verdicts go up and down a tree instead of from each to each, where
+  /// members keep to neighbours (docs/peer-to-peer.md, "Agreement"). Equal for all.
+  std::size_t tree_from = 16;
+  bool agrees_by_tree(std::size_t member_count) const {
+    return keeps_to_neighbours && member_count >= tree_from;
+  }
   std::function<std::vector<Seat>(const Player&)> seats_of{};
   WindowHooks hooks{};  ///< for callers; `when_final` is the session's own
   /// Called, if not empty, when a window, or a stretch of one that is cut, is final, and the next

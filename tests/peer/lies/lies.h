@@ -18,6 +18,7 @@
 #include "game/peer/session/scoring.h"
 #include "game/peer/session/session_state.h"
 #include "game/peer/standby/part_record.h"
+#include "game/peer/verdict_tree.h"
 #include "game/physics/snapshot_stream.h"
 #include "im/basics/byte_stream.h"
 #include "tests/peer/shared_scenes.h"
@@ -34,11 +35,12 @@ enum class MessageKind : std::uint8_t {
   face_off,
   record,
   piece,
+  bundle,
   none
 };
-inline constexpr std::array kind_names{"Loss",       "Entry",         "Verdict",
-                                       "Claims",     "Handover",      "FaceOffWord",
-                                       "PartRecord", "SnapshotPiece", "nothing"};
+inline constexpr std::array kind_names{
+    "Loss",        "Entry",      "Verdict",       "Claims",        "Handover",
+    "FaceOffWord", "PartRecord", "SnapshotPiece", "VerdictBundle", "nothing"};
 
 /// A field as a message writes it: the `size` lowest bytes of `value`.
 struct Word {
@@ -123,7 +125,8 @@ inline Fields fields_of(std::span<const std::uint8_t> bytes, const physics::Fiel
       take_fields(bytes, MessageKind::handover, 4, Handover{}, fields) ||
       take_fields(bytes, MessageKind::face_off, 8, FaceOffWord{}, fields) ||
       take_fields(bytes, MessageKind::record, 4, PartRecord{}, fields) ||
-      take_fields(bytes, MessageKind::piece, 4, SnapshotPiece{}, fields);
+      take_fields(bytes, MessageKind::piece, 4, SnapshotPiece{}, fields) ||
+      take_fields(bytes, MessageKind::bundle, 4, VerdictBundle{}, fields);
   return fields;
 }
 
