@@ -22,6 +22,7 @@ void Ambassador::destroy_federation_execution(std::string_view federation) {
   parts_->questions.destroy_federation_execution(federation);
 }
 void Ambassador::list_federation_executions() { parts_->questions.list_federation_executions(); }
+void Ambassador::notify_host() { parts_->questions.notify_host(); }
 void Ambassador::query_management() { parts_->questions.query_management(); }
 void Ambassador::join(std::string_view federation, std::string_view federate_name,
                       std::string_view federate_type) {

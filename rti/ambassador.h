@@ -46,6 +46,9 @@ class Ambassador {
   /// join the counters are those of every execution of the host, after it those of the own
   /// execution.
   void query_management();
+  /// Beyond the standard: one bit for the host of the federation execution, which knows what it
+  /// means (FederationExecution::take_notice). Throws FederateNotExecutionMember.
+  void notify_host();
   /// `join` ends with `joined` or `join_refused`. Declarations and regions may follow `join` at
   /// once; objects and interactions only `joined`. Throws FederateAlreadyExecutionMember. After
   /// `resign` nothing may be called but `outgoing` and `clear_outgoing`; its objects are deleted.

@@ -141,6 +141,10 @@ class FederateAmbassador {
   virtual void remove_object_instance_with_time(ObjectHandle object, const TimedStamp&) {
     remove_object_instance(object);
   }
+
+  /// Beyond the standard: what the host of the federation execution sends to this federate
+  /// (FederationExecution::send_host_message), in order with all else.
+  virtual void receive_host_message(Bytes /*content*/) {}
 };
 
 }  // namespace rink::rti

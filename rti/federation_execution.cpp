@@ -1,9 +1,12 @@
 // Forwards each call of `FederationExecution` to its parts.
 #include "rti/federation_execution.h"
 
+#include <cassert>
 #include <stdexcept>
+#include <utility>
 
 #include "rti/federation/federation_parts.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 
@@ -98,6 +101,56 @@ void FederationExecution::list_scope(FederateHandle federate,
   parts_->ground.distribution->of(*federate_slot).in_scope.for_each([&](ObjectSlot slot) {
     objects.push_back(parts_->ground.objects[slot].handle);
   });
+}
+
+void FederationExecution::send_host_message(FederateHandle federate, Bytes content) {
+  assert(content.size() <= HostMessage::size_max);
+  if (const auto slot = parts_->ground.federates.joined(federate))
+    parts_->ground.federates[*slot].outbox.after_updates(HostMessage{content});
+}
+
+bool FederationExecution::take_notice(FederateHandle federate) {
+  const auto slot = parts_->ground.federates.joined(federate);
+  return slot && std::exchange(parts_->ground.federates[*slot].has_notice, false);
+}
+
+void FederationExecution::serve_by_host(FederateHandle federate, ObjectClassHandle object_class) {
+  const auto slot = parts_->ground.federates.joined(federate);
+  if (!slot) return;
+  FederateInterest& interest = parts_->ground.distribution->of(*slot);
+  const std::uint16_t former = interest.host_served;
+  interest.host_served =
+      object_class ? static_cast<std::uint16_t>(object_class.value) : FederateInterest::no_class;
+  if (former == interest.host_served) return;
+  const ObjectTable& objects = parts_->ground.objects;
+  interest.in_scope.for_each([&](ObjectSlot each) {
+    if (objects[each].object_class == interest.host_served) interest.unannounced.erase(each);
+    if (objects[each].object_class != former) return;
+    interest.unannounced.insert(each);
+    interest.has_unannounced = true;
+    interest.needs_full_state.insert(each);
+    interest.needs_any_full_state = true;
+  });
+}
+
+const Bitmap* FederationExecution::scope(FederateHandle federate) const {
+  const auto slot = parts_->ground.federates.joined(federate);
+  return slot ? &parts_->ground.distribution->of(*slot).in_scope : nullptr;
+}
+
+ObjectSlot FederationExecution::slot_of(ObjectHandle object) const {
+  return parts_->ground.objects.find(object);
+}
+
+void FederationExecution::list_subscribers(ObjectClassHandle object_class,
+                                           AttributeHandle attribute,
+                                           std::vector<FederateHandle>& federates) const {
+  const DataDistribution& distribution = *parts_->ground.distribution;
+  for (std::uint32_t slot = 0; slot < parts_->ground.federates.size(); ++slot)
+    if (parts_->ground.federates[slot].is_joined &&
+        distribution.subscribed_anywhere(slot, static_cast<std::uint16_t>(object_class.value))
+            .subscribed.contains(attribute))
+      federates.push_back(parts_->ground.federates[slot].handle);
 }
 
 void FederationExecution::list_subscribed_regions(std::vector<SubscribedRegion>& regions) const {

@@ -18,6 +18,8 @@
 #include "rti/federation_settings.h"
 #include "rti/fom/fom.h"
 #include "rti/management/federation_report.h"
+#include "rti/objects/bitmap.h"
+#include "rti/objects/object_table.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
@@ -77,6 +79,23 @@ class FederationExecution final : public CentralComponent {
   void list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const;
   /// Appends every region with bounds that a federate subscribes with.
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
+  /// Sends `content`, at most HostMessage::size_max bytes (asserted), to one federate behind all
+  /// else of the next flush; the RTI does not look into it. A federate that left is sent nothing.
+  void send_host_message(FederateHandle federate, Bytes content);
+  /// Whether the federate has sent the host a notice (Ambassador::notify_host) since the last call.
+  bool take_notice(FederateHandle federate);
+  /// From now on the host itself tells `federate` of the objects of `object_class`: their scope is
+  /// decided as before, but neither discoveries, changes of scope nor values are sent. With an
+  /// empty handle all in scope is announced and sent anew.
+  void serve_by_host(FederateHandle federate, ObjectClassHandle object_class);
+  /// The slots of the objects in `federate`'s scope since the last match; null if it left. Valid
+  /// until the next match.
+  const Bitmap* scope(FederateHandle federate) const;
+  /// `no_object` if there is none; used again some time after the object is gone.
+  ObjectSlot slot_of(ObjectHandle object) const;
+  /// Appends who subscribes to an attribute of the class, with whatever regions.
+  void list_subscribers(ObjectClassHandle object_class, AttributeHandle attribute,
+                        std::vector<FederateHandle>& federates) const;
   const FederationCounters& counters() const;
   const BaselineCounters& baseline_counters() const;
   /// Computed on the call, by counting objects and scopes one by one; includes the outlet's queues

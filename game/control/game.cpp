@@ -9,6 +9,7 @@
 
 #include "game/control/free_place.h"
 #include "game/physics/subdomain.h"
+#include "game/physics/world_journal.h"
 #include "im/basics/checked.h"
 
 namespace rink::game {
@@ -252,6 +253,11 @@ const Entity& Game::entity(EntityId entity) const {
   assert(is_there(entity));
   return *std::lower_bound(entities_.begin(), entities_.end(), entity,
                            [](const Entity& a, EntityId id) { return a.id < id; });
+}
+
+void observe(const Game& game, physics::WorldJournal& journal) {
+  assert(game.simulator_->exact_world() != nullptr);
+  journal.observe(*game.simulator_->exact_world());
 }
 
 void Game::check() const {

@@ -154,6 +154,10 @@ class Game {
   std::span<const Entity> removed() const { return removed_; }
   std::span<const ScoredGoal> scored() const { return scored_; }
 
+  /// Makes `journal` list which bodies each event of a game on the exact engine (asserted)
+  /// concerns, for as long as the game is played. Never changes the motion.
+  friend void observe(const Game& game, physics::WorldJournal& journal);
+
   /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for
   /// equal games.
   std::uint64_t hash() const;

@@ -9,6 +9,7 @@
 
 #include "game/physics/body_hash.h"
 #include "game/physics/engine/engine.h"
+#include "game/physics/world_journal.h"
 #include "im/basics/checked.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -274,6 +275,7 @@ void Subdomain::begin_window() {
   if (slots_.slot_count() > slots_.count() + slots_.count() / 4 + 64) spread(0);
   before_->begin();
   journal_.changes.clear(), journal_.motions.clear(), journal_.looked_at.clear();
+  journal_.thrusts.clear();
   journal_.event = 0, journal_.quiet_events = 0, journal_.mixed_digest = 0,
   journal_.at_once_max = 0;
   journal_.times.clear(), journal_.counted.clear(), journal_.unsolved.clear();
@@ -288,6 +290,32 @@ void Subdomain::undo() {
 void Subdomain::advance(double until) {
   while (world_.advance(until)) {
   }
+}
+
+void WorldJournal::observe(World& world) {
+  journal_ = {};
+  journal_.rooms_of.assign(world.body_count(), 0);
+  world.engine_->observe({nullptr, &journal_});
+}
+
+void WorldJournal::detach(World& world) { world.engine_->observe({}); }
+
+void WorldJournal::forget() {
+  journal_.changes.clear(), journal_.motions.clear(), journal_.looked_at.clear();
+  journal_.thrusts.clear();
+  journal_.event = 0, journal_.mixed_digest = 0, journal_.at_once_max = 0;
+  journal_.times.clear(), journal_.counted.clear(), journal_.unsolved.clear();
+}
+
+const std::vector<RestContact>& WorldJournal::rest_contacts(const World& world) {
+  return world.engine_->rest_contacts();
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> WorldJournal::jams(const World& world) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> jams;
+  const JamTable& table = world.engine_->parts().jams.table();
+  for (const std::uint32_t body : table.frozen) jams.emplace_back(body, table.numbers[body]);
+  return jams;
 }
 
 }  // namespace rink::physics::inline RINK_PRECISION

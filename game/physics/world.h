@@ -21,6 +21,7 @@ namespace rink::physics::inline RINK_PRECISION {
 
 class Engine;
 class Slabs;
+class WorldJournal;
 
 /// A set of bodies in a field, and a simulated time that only moves forward. Pure: the same calls
 /// give the same bits, whatever the cell size and however often advance() stops on the way. Method,
@@ -133,6 +134,7 @@ class World final : public Simulator {
 
  private:
   friend class Subdomain;
+  friend class WorldJournal;
   explicit World(std::unique_ptr<Engine> engine);
   std::unique_ptr<Engine> engine_;
   std::unique_ptr<Slabs> slabs_;

@@ -157,6 +157,9 @@ class CallbackQueue final : public FederateAmbassador {
                            FederateHandle sender, const Stamp& stamp) override {
     put<&FederateAmbassador::receive_interaction>(interaction_class, parameters, sender, stamp);
   }
+  void receive_host_message(Bytes content) override {
+    put<&FederateAmbassador::receive_host_message>(content);
+  }
 
   // Time management.
   void time_regulation_enabled(LogicalTime time) override {

@@ -38,6 +38,9 @@ struct FederateInterest {
                                      ///< since a message in time-stamp order names them
   bool is_uniform = true;  ///< all of a class's objects in scope have the same attributes:
                            ///< `by_class`; else `by_object`
+  static constexpr std::uint16_t no_class = 0xffff;
+  std::uint16_t host_served = no_class;  ///< the class of whose objects the host itself tells this
+                                         ///< federate: the RTI keeps the scope and is silent
   std::vector<AttributeSet> by_class, by_object;
   std::unique_ptr<Turns> turns;  ///< null unless the filter makes some objects in scope wait
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "rti/federate/ambassador_parts.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 
@@ -93,6 +94,12 @@ class FederateMessageTable {
     };
     at(Kind::federate_report, When::ever) = [](Parts& parts, Reader& reader, ReadContext&) {
       return parts.questions.handle_federate_report(reader);
+    };
+    at(Kind::host_message) = [](Parts& parts, Reader& reader, ReadContext&) {
+      HostMessage message;
+      if (!exchange(reader, message)) return false;
+      parts.ground.gate.callbacks().receive_host_message(message.content);
+      return true;
     };
     at(Kind::report_end, When::ever) = [](Parts& parts, Reader&, ReadContext&) {
       return parts.questions.handle_report_end();

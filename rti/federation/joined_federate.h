@@ -26,6 +26,7 @@ namespace rink::rti {
 /// Vectors by class are of fixed size.
 struct JoinedFederate {
   bool is_joined = false, is_watching = false;
+  bool has_notice = false;  ///< for the host, which has not taken it yet
   ConnectionId connection = 0;
   FederateHandle handle;
   std::uint32_t block = 0;  ///< of its objects' handles

@@ -53,6 +53,10 @@ class MessageTable {
     at(Kind::query_management) = [](Parts& parts, Slot slot, Reader&) {
       return parts.connections.query_report(parts.ground.federates[slot].connection);
     };
+    at(Kind::notify_host) = [](Parts& parts, Slot slot, Reader&) -> Status {
+      parts.ground.federates[slot].has_notice = true;
+      return std::nullopt;
+    };
     at(Kind::register_synchronization_point) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.synchronization.handle_register(slot, reader);
     };

@@ -97,4 +97,19 @@ bool exchange(Stream& stream, FederateResignedMessage& message) {
          stream.text(message.name, text_max) && stream.text(message.type, text_max);
 }
 
+/// What the host of the federation execution sends to one federate; the RTI does not look into it.
+struct HostMessage {
+  static constexpr MessageKind kind = MessageKind::host_message;
+  static constexpr std::size_t size_max = 16u << 20;  ///< bytes
+  Bytes content;
+};
+template <class Stream>
+bool exchange(Stream& stream, HostMessage& message) {
+  auto size = static_cast<std::uint32_t>(message.content.size());
+  return stream.varint(size) && stream.check(size <= HostMessage::size_max) &&
+         stream.rest(message.content, size);
+}
+/// To the host, which knows what it means.
+using NotifyHostMessage = BareMessage<MessageKind::notify_host>;
+
 }  // namespace rink::rti

@@ -20,7 +20,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 8;
+inline constexpr std::uint16_t protocol_version = 9;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
@@ -73,10 +73,11 @@ enum class MessageKind : std::uint8_t {
   spare_update = 47,
   local_delete = 48,
   advisory_switch = 49,
-  // free: 24 to 27 federation management, 35 time, 42 to 45 ownership, 60 to 62 the connection
+  // free: 24 to 27 federation management, 35 time, 42 to 45 ownership, 61 and 62 the connection
   // baselines
   acknowledge_keyframe = 50,
   refuse_keyframe = 51,
+  notify_host = 60,
   acknowledge_datagrams = 63,  // in datagrams only, both ways (rti/wire/datagram.h)
   // admission, where a key is shared: before anything else
   hello = 58,
@@ -119,13 +120,14 @@ enum class MessageKind : std::uint8_t {
   // the connection
   expelled = 120,
   further_block = 121,
+  host_message = 122,
   // objects and declarations
   instance_names_answer = 104,
   class_relevance = 105,
   object_relevance = 106,
   transportation = 107,
   // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and
-  // declarations, 114 to 117 regions, 122 to 127 the connection
+  // declarations, 114 to 117 regions, 123 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.

@@ -62,8 +62,16 @@ struct Journal {
                                        ///< of them: from then on all is
   RestContactAge age;
   std::span<const std::uint32_t> numbers;  ///< by slot: of the body in the whole
+  /// A bat is driven otherwise from then on.
+  struct Thrust {
+    Real time;
+    std::uint32_t body;
+    RealVector thrust;
+  };
+  std::vector<Thrust> thrusts;
 
   std::uint32_t number_of(std::uint32_t slot) const {
+    if (numbers.empty()) return slot;  // a whole world's
     assert(slot < numbers.size());
     return numbers[slot];
   }

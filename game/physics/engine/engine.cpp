@@ -100,6 +100,7 @@ BodyId Engine::add(BodyState state) {
   jams_.add();
   events_.add();
   rests_.add(body);
+  if (observers_.journal != nullptr) observers_.journal->rooms_of.push_back(0);
   ledger_.introduce(energy_of(bodies_, body));
   enter_mouth_if_inside(body);
   places_.resize(body + 1);
@@ -215,7 +216,10 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
   if (bodies_.build(bat).thrust == acceleration) return;
   bodies_.keep(bat);
-  if (observers_.journal != nullptr) observers_.journal->time = clock_.now;
+  if (Journal* const journal = observers_.journal; journal != nullptr) {
+    journal->time = clock_.now;
+    journal->thrusts.push_back({clock_.now, journal->number_of(bat), acceleration});
+  }
   if (bodies_[bat].is(Body::gone)) {
     bodies_.set_thrust(bat, acceleration);
     return;
@@ -232,7 +236,7 @@ void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
 
 std::optional<Goal> Engine::advance(Real until, EventBudget* budget) {
   assert(until >= clock_.now && until < infinity);
-  assert(budget == nullptr || (!budget->is_exceeded() && observers_.journal == nullptr));
+  assert(budget == nullptr || !budget->is_exceeded());
   // Or else a stop between two keys of one instant would let the first one's impacts come before
   // the second one.
   if (clock_.is_played && until == clock_.now) return std::nullopt;

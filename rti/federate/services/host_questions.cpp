@@ -7,6 +7,7 @@
 #include "rti/federate/books/require.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 
@@ -36,6 +37,12 @@ void HostQuestions::list_federation_executions() { ask(ListFederationExecutionsM
 void HostQuestions::query_management() {
   if (basis_.phase.is_idle()) ask(QueryManagementMessage{});
   else basis_.frames.enqueue(QueryManagementMessage{});
+}
+
+void HostQuestions::notify_host() {
+  if (!basis_.phase.is_joined())
+    throw RtiException(HlaError::federate_not_execution_member, "a host hears its members alone");
+  basis_.frames.enqueue(NotifyHostMessage{});
 }
 
 bool HostQuestions::handle_created(Reader& reader) {

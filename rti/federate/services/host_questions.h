@@ -20,6 +20,8 @@ class HostQuestions {
   void destroy_federation_execution(std::string_view federation);
   void list_federation_executions();
   void query_management();
+  /// Only once joined.
+  void notify_host();
   /// True once a question was sent: a host may answer, and may be lost.
   bool has_asked() const { return has_asked_; }
 

@@ -41,6 +41,7 @@ void Announcements::write_event(FlushContext& context, const ScopeEvent& event, 
   const Object& object = basis_.objects[event.slot];
   if (!object.is_alive || std::ranges::binary_search(interest.sent_now, event.slot))
     return;  // it entered and left between two flushes, or its removal is under way
+  if (object.object_class == interest.host_served) return;
   if (is_too_late(interest, event.slot)) return interest.unannounced.erase(event.slot);
   if (event.transition == im::Transition::left) {
     if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);

@@ -85,9 +85,10 @@ void Sender::write_content(FlushContext& context, Outlet& outlet) {
   const std::size_t entry_end = context.frame.size() + entry_room(context, outlet);
   uses_.announcements.write(context, entry_end);
   if (holds_back(context, outlet)) return hold_back(context);
-  if (interest.turns) uses_.turns.apply_turns(context);
+  const bool has_turns = interest.turns && interest.host_served == FederateInterest::no_class;
+  if (has_turns) uses_.turns.apply_turns(context);
   write_full_states(context, entry_end);
-  if (interest.turns) uses_.turns.catch_up(context);
+  if (has_turns) uses_.turns.catch_up(context);
   if (context.federate.channel && !context.federate.channel->due.empty()) write_due_states(context);
   gather_runs(context);
   uses_.datagrams.send(context, outlet);
@@ -140,7 +141,7 @@ void Sender::write_full_states(FlushContext& context, std::size_t end) {
     }
     context.full_state_sent.push_back(due);
     const Object& object = basis_.objects[due];
-    if (!object.is_alive) return true;
+    if (!object.is_alive || object.object_class == interest.host_served) return true;
     const AttributeSet set = interest.attributes_in_scope(due, object.object_class) & object.valued;
     if (set.is_empty()) return true;
     const Stamp stamp = uses_.newest.of(due);
@@ -170,7 +171,7 @@ bool Sender::holds_back(const FlushContext& context, const Outlet& outlet) {
 void Sender::hold_back(FlushContext& context) {
   FederateInterest& interest = context.interest;
   for (const UpdateRun& run : context.runs) {
-    if (run.owner == context.slot ||
+    if (run.owner == context.slot || run.object_class == interest.host_served ||
         (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
       continue;
     for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
@@ -187,7 +188,7 @@ void Sender::gather_runs(FlushContext& context) {
   GatheredFrame& frame = context.frame;
   const std::size_t before = frame.size();
   for (const UpdateRun& run : context.runs) {
-    if (run.owner == context.slot) continue;
+    if (run.owner == context.slot || run.object_class == interest.host_served) continue;
     const auto index = static_cast<std::size_t>(&run - context.runs.data());
     if (context.path.channel != nullptr && uses_.datagrams.gather(index, context)) continue;
     if (uses_.periodic.covers(index)) {
@@ -258,8 +259,9 @@ void Sender::write_due_states(FlushContext& context) {
   GatheredFrame& frame = context.frame;
   for (const DatagramLedger::Lost& each : channel.due) {
     const ObjectSlot object = basis_.objects.find({each.handle});
-    if (object == no_object || interest.needs_full_state.contains(object))
-      continue;  // gone, or sent in full anyway
+    if (object == no_object || interest.needs_full_state.contains(object) ||
+        basis_.objects[object].object_class == interest.host_served)
+      continue;  // gone, or sent in full anyway, or by the host
     const AttributeSet set =
         interest.attributes_in_scope(object, basis_.objects[object].object_class) &
         basis_.objects[object].valued & each.attributes;

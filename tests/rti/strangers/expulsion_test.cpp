@@ -137,11 +137,11 @@ INSTANTIATE_TEST_SUITE_P(Each, ExpulsionOver,
                                            Carrier::virtual_network),
                          [](const auto& carrier) { return name_of(carrier.param); });
 
-TEST(Expulsion, BelongsToVersion8SoFederatesOfVersion7AreRefused) {
+TEST(Expulsion, FederatesOfVersion8WhichKnowsNoHostMessagesAreRefused) {
   Bare bare;
   bare.execution.connect(1);
   JoinMessage join = join_of("old");
-  join.version = 7;
+  join.version = 8;
   std::vector<std::byte> frame = frame_of(join);
   bare.execution.receive(1, frame);
   bare.tick();

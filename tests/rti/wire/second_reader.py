@@ -434,6 +434,7 @@ UP = {
     54: lambda r: ["%s %s %s" % (r.object_class(r.u16()), ("unsubscribe", "subscribe", "request", "subscribe_passively")[r.u8()], r.pairs())],
     55: lambda r: ["subscribe_interaction_within %s %d %s" % (r.interaction_class(), r.u8(), r.handles())],
     56: lambda r: ["associate_regions %d %d %s" % (r.u32(), r.u8(), r.pairs())],
+    60: lambda r: ["notify_host"],
     57: lambda r: ["send_within %s %s %s %s" % (r.interaction_class(), r.read_stamp(), r.handles(), r.short_bytes())],
 }
 ADVANCES = ("time_advance_request", "time_advance_request_available", "next_message_request", "next_message_request_available", "flush_queue_request")
@@ -447,6 +448,7 @@ DOWN = {
     64: lambda r: ["joined %d %d" % (r.u32(), r.u32())],
     120: lambda r: ["expelled " + r.text()],
     121: lambda r: ["further_block %d" % r.u32()],
+    122: lambda r: ["host_message " + r.take(r.varint()).hex()],
     65: lambda r: ["refused %d %s" % (r.u8(), r.text())],
     66: lambda r: ["announced %s %s" % (r.text(), r.short_bytes())],
     67: lambda r: ["synchronized %s %s" % (r.text(), r.handles())],
