@@ -77,6 +77,7 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       pong(interaction_class(fom, "Pong")),
       inspect(interaction_class(fom, "Inspect")),
       interest(interaction_class(fom, "Interest")),
-      pace(interaction_class(fom, "Pace")) {}
+      pace(interaction_class(fom, "Pace")),
+      exact(varying_attribute(fom, entity, "exact")) {}
 
 }  // namespace rink::game

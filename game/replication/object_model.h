@@ -22,6 +22,7 @@ struct ObjectModel {
   rti::InteractionClassHandle pause, rematch, ping, pong;  ///< of hosted matches
   rti::InteractionClassHandle inspect, interest;           ///< of watchers
   rti::InteractionClassHandle pace;  ///< of servers that wait for turns or keep logical time
+  rti::AttributeHandle exact;        ///< of entity
 };
 
 }  // namespace rink::game

@@ -169,6 +169,21 @@ void ReplicaSet::follow_law(EntityReplica& entity) const {
   entity.position = rounded(entity.motion.position);
 }
 
+void ReplicaSet::show(const Computed& computed, const rti::Stamp& stamp) {
+  EntityReplica* const shown = entity(computed.object);
+  assert(shown != nullptr);
+  shown->shape = computed.shape, shown->input = computed.input;
+  shown->stamp = stamp;
+  shown->motion = computed.motion;
+  shown->trajectory = Trajectory{.time = computed.motion.time,
+                                 .position = computed.motion.position,
+                                 .velocity = computed.motion.velocity,
+                                 .acceleration = computed.motion.acceleration};
+  shown->position = rounded(computed.motion.position);
+  shown->is_placed = true;
+  ++counters_.updates;
+}
+
 void ReplicaSet::set_scope(rti::ObjectHandle object, bool in_scope) {
   EntityReplica* changed = entity(object);
   if (changed == nullptr || changed->in_scope == in_scope) return;

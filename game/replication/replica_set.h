@@ -68,6 +68,16 @@ class ReplicaSet {
   void discover(rti::ObjectHandle object, rti::ObjectClassHandle object_class);
   void reflect(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
                const rti::Stamp& stamp);
+  /// An entity that was discovered and is computed here: its law from now on.
+  struct Computed {
+    rti::ObjectHandle object;
+    Shape shape;
+    Input input;
+    physics::Motion motion;
+  };
+  void show(const Computed& computed, const rti::Stamp& stamp);
+  /// All that is shown is as of `stamp`.
+  void show_instant(const rti::Stamp& stamp) { newest_ = stamp; }
   void set_scope(rti::ObjectHandle object, bool in_scope);
   void remove(rti::ObjectHandle object);
 

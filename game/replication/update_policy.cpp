@@ -171,12 +171,14 @@ std::unique_ptr<UpdatePolicy> make_update_policy(const std::string& name,
   if (name == "dead-reckoning") return std::make_unique<DeadReckoning>(settings.threshold, false);
   if (name == "dead-reckoning-drag")
     return std::make_unique<DeadReckoning>(settings.threshold, true);
-  if (name == "on-event") return std::make_unique<OnEvent>();
+  // Who computes is sent by the host what that takes (exact/exact_feed.h); who does not, all else.
+  if (name == "on-event" || name == exact_policy) return std::make_unique<OnEvent>();
   return nullptr;
 }
 
 std::vector<std::string> update_policy_names() {
-  return {"periodic", "snapshot", "dead-reckoning", "dead-reckoning-drag", "on-event"};
+  return {"periodic", "snapshot",  "dead-reckoning", "dead-reckoning-drag",
+          "on-event", exact_policy};
 }
 
 bool takes_threshold(const std::string& policy) { return policy.starts_with("dead-reckoning"); }

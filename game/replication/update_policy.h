@@ -49,4 +49,7 @@ bool takes_threshold(const std::string& policy);
 
 std::vector<std::string> update_policy_names();
 
+/// Of the policy under which clients that can compute what they know.
+inline constexpr const char* exact_policy = "exact";
+
 }  // namespace rink::game

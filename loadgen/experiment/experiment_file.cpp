@@ -244,6 +244,8 @@ void expect_what_nodes_can(const Experiment& experiment, const std::string& file
   if (experiment.transport != TransportKind::tcp)
     refuse(std::string("needs transport = \"tcp\", not \"") + to_string(experiment.transport) +
            "\": nodes play in threads and by clocks of their own, in real time");
+  if (std::ranges::find(experiment.policies, game::exact_policy) != experiment.policies.end())
+    refuse(std::string("knows no policy ") + game::exact_policy);
   if (experiment.keys != KeySource::live)
     refuse("needs keys = \"live\": nodes play what their clients press, and no key log");
   if (experiment.start_s > 0.0)

@@ -1,6 +1,7 @@
 // Steps server, RTI and clients by turns; a round in which nothing is sent ends the exchange.
 #include "tests/net/lockstep_rink.h"
 
+#include "game/net/server/push_exact.h"
 #include "game/net/server/push_filter_hints.h"
 #include "game/replication/filter_setup.h"
 #include "game/replication/trajectory_codec.h"
@@ -34,6 +35,8 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
                                                      server_endpoint_.connect("rti"));
   server_links_.add(*server_link_);
   if (execution_.filter().traits().uses_flights) server_->hand_in_flights();
+  if (settings.server.policy == exact_policy)
+    exact_.emplace(server_->game(), scene, fom_, 1.0 / settings.rate_hz);
   settle();
   for (std::uint32_t k = 0; k < settings.clients; ++k) add_client("bat-" + std::to_string(k));
 }
@@ -95,11 +98,13 @@ void LockstepRink::start() {
 }
 
 void LockstepRink::send_tick(double time) {
-  server_->publish({.time = time, .tag = static_cast<std::uint64_t>(1e9 * (time + 1.0))});
+  const rti::Stamp stamp{.time = time, .tag = static_cast<std::uint64_t>(1e9 * (time + 1.0))};
+  server_->publish(stamp);
   server_link_->flush(now);
   host_.poll({});
   push_filter_hints(*server_, execution_);
   host_.match();
+  if (exact_) push_exact(*server_, *exact_, stamp, execution_);
   host_.flush();
   host_.advance_clock(now);
 }
@@ -109,6 +114,7 @@ void LockstepRink::tick() {
   const double time = static_cast<double>(++tick_number) / settings_.rate_hz;
   now = time;
   server_->simulate(time);
+  if (exact_) exact_->look();
   send_tick(time);
   settle();
 }

@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "game/net/client/client.h"
 #include "game/net/server/server.h"
+#include "game/replication/exact/exact_feed.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
@@ -60,6 +62,8 @@ class LockstepRink {
   std::size_t client_count() const { return clients_.size(); }
   const std::string& scheme() const { return settings_.scheme; }
   rti::FederationExecution& execution() { return execution_; }
+  /// Null unless the policy is "exact".
+  const ExactFeed* exact_feed() const { return exact_ ? &*exact_ : nullptr; }
   /// Where the federation is called "rti", for who joins on his own.
   rti::InProcessNetwork& network() { return network_; }
   /// Simulated time of the next key: tests set it between two ticks.
@@ -85,6 +89,7 @@ class LockstepRink {
   rti::FederationExecution execution_;
   rti::FederationHost host_;
   std::unique_ptr<Server> server_;
+  std::optional<ExactFeed> exact_;
   std::unique_ptr<rti::FederateLink> server_link_;
   rti::FederateLinks server_links_;
   std::vector<std::unique_ptr<Player>> clients_;

@@ -19,6 +19,14 @@ bool is_state_on_entry(const ReplicaSet& replicas, rti::ObjectHandle object) {
   return entity != nullptr && !entity->is_placed;
 }
 
+/// Who computes subscribes to the rest as well, for servers of other policies.
+rti::AttributeSet wanted(const ObjectModel& model, bool computes) {
+  rti::AttributeSet wanted{model.shape, model.input, model.position, model.trajectory,
+                           model.snapshot};
+  if (computes) wanted.insert(model.exact);
+  return wanted;
+}
+
 }  // namespace
 
 Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettings& settings)
@@ -70,9 +78,31 @@ void Client::subscribe_once_seated() {
     region_ = ambassador_.create_region();
     look_around(joining_.seat()->position);
   }
-  ambassador_.subscribe_object_class_attributes(
-      model_.entity,
-      {model_.shape, model_.input, model_.position, model_.trajectory, model_.snapshot}, region_);
+  ambassador_.subscribe_object_class_attributes(model_.entity, wanted(model_, settings_.computes),
+                                                region_);
+}
+
+/// A message has all news of a tick; who is seated late sees its bat in one.
+void Client::receive_host_message(rti::Bytes content) {
+  if (!settings_.computes) return;
+  if (!computed_) computed_.emplace(model_, replicas_, received_);
+  const std::optional<SeatOffer>& seat = joining_.seat();
+  const auto before = [this](const rti::Stamp& stamp) {
+    if (before_next_stamp && stamp != replicas_.newest()) before_next_stamp();
+  };
+  const ExactReplicas::Result result =
+      computed_->receive(content, seat ? seat->bat : SeatOffer::no_bat, before);
+  if (result == ExactReplicas::Result::resend) {
+    ambassador_.notify_host();  // who sends all again
+  } else if (result == ExactReplicas::Result::hopeless) {
+    settings_.computes = false;
+    computed_->withdraw();
+    ambassador_.subscribe_object_class_attributes(model_.entity, wanted(model_, false), region_);
+  }
+  if (result != ExactReplicas::Result::exact) return;
+  bat_ = computed_->bat();
+  if (on_news && replicas_.newest() != news_) on_news(news_ = replicas_.newest());
+  if (state() == State::seated || state() == State::ready) reach_barrier_once_ready();
 }
 
 void Client::look_around(const Position& centre) {
@@ -117,7 +147,7 @@ void Client::announce_synchronization_point(std::string_view label, rti::Bytes) 
 void Client::reach_barrier_once_ready() {
   const EntityReplica* own = bat();
   if (own != nullptr && own->in_scope && own->is_placed) joining_.see_bat();
-  if (state() != State::ready || !is_time_kept()) return;
+  if (state() != State::ready || !turns_.is_time_kept(ambassador_.clock())) return;
   if (joining_.take_call()) ambassador_.synchronization_point_achieved(start_barrier);
   else if (replicas_.has_match() || turns_.is_late_by_timer() ||
            (own != nullptr && own->stamp.tag != 0))

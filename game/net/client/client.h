@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "game/model/key.h"
+#include "game/net/client/computed_replicas.h"
 #include "game/net/client/interest_questions.h"
 #include "game/net/client/joining.h"
 #include "game/net/client/match_remote.h"
@@ -41,6 +42,8 @@ struct ClientSettings {
   bool plays_match = false;   ///< a hosted one: receives its state, may pause it and ask for
                               ///< another
   bool only_watches = false;  ///< takes no bat; sees the whole field
+  bool computes = true;       ///< what it knows, where the server's policy is "exact"; else it is
+                              ///< sent trajectories there
 };
 
 /// One player's federate. No clock, no socket: `ambassador` takes and gives the bytes.
@@ -82,6 +85,9 @@ class Client : public rti::FederateAmbassador {
   /// before.
   std::function<void(const rti::Stamp&)> on_news;
 
+  /// What it computes; null unless the server's policy is "exact". Once it has computed otherwise
+  /// than the server again and again, it is sent trajectories.
+  ComputedReplicas* computed() { return computed_ ? &*computed_ : nullptr; }
   /// A log of received updates for measurements; off at first.
   ReceiptLog& received() { return received_; }
   /// Null unless it plays hosted matches.
@@ -99,7 +105,7 @@ class Client : public rti::FederateAmbassador {
   /// Memory of the client: itself, tables and buffers [bytes].
   std::size_t memory_bytes() const {
     return sizeof *this + replicas_.memory_bytes() + ambassador_.memory_bytes() +
-           encoded_.capacity();
+           encoded_.capacity() + (computed_ ? computed_->memory_bytes() : 0);
   }
 
  private:
@@ -118,13 +124,14 @@ class Client : public rti::FederateAmbassador {
   void receive_interaction(rti::InteractionClassHandle interaction, rti::Bytes parameters,
                            rti::FederateHandle sender, const rti::Stamp& stamp) override;
 
+  void receive_host_message(rti::Bytes content) override;
+
   void time_regulation_enabled(rti::LogicalTime time) override;
   void time_constrained_enabled(rti::LogicalTime time) override;
   void time_advance_grant(rti::LogicalTime time) override;
   void time_bounds(double galt, double lits) override;
 
   void receive_pace(rti::Bytes parameters, const rti::Stamp& stamp);
-  bool is_time_kept() const;
   void begin_time();
   void ask_for_tick();
   void pass_if_absent();
@@ -148,6 +155,7 @@ class Client : public rti::FederateAmbassador {
   std::optional<MatchRemote> remote_;
   std::optional<InterestQuestions> questions_;
   ReceiptLog received_;
+  std::optional<ComputedReplicas> computed_;
 };
 
 }  // namespace rink::game

@@ -22,16 +22,11 @@ void Client::receive_pace(rti::Bytes parameters, const rti::Stamp& stamp) {
   ambassador_.enable_time_constrained();
 }
 
-bool Client::is_time_kept() const {
-  const rti::FederateClock& clock = ambassador_.clock();
-  return turns_.is_time_kept(clock.is_constrained(), clock.is_regulating());
-}
-
 void Client::time_regulation_enabled(rti::LogicalTime) { begin_time(); }
 void Client::time_constrained_enabled(rti::LogicalTime) { begin_time(); }
 
 void Client::begin_time() {
-  if (!turns_.is_time_managed() || !is_time_kept()) return;
+  if (!turns_.is_time_managed() || !turns_.is_time_kept(ambassador_.clock())) return;
   if (turns_.begin()) ask_for_tick();
   reach_barrier_once_ready();
 }

@@ -7,6 +7,7 @@
 
 #include "game/net/tick_grid.h"
 #include "game/replication/attributes.h"
+#include "rti/time/federate_clock.h"
 
 namespace rink::game {
 
@@ -29,6 +30,9 @@ class TurnTaker {
   double lookahead() const { return grid().lookahead(); }
   /// True unless it should keep logical time and cannot yet.
   bool is_time_kept(bool is_constrained, bool is_regulating) const;
+  bool is_time_kept(const rti::FederateClock& clock) const {
+    return is_time_kept(clock.is_constrained(), clock.is_regulating());
+  }
 
   /// The server sent its pace at `simulated_s` [s]; true for the first one, the others are ignored.
   bool receive(const Pace& pace, double simulated_s);

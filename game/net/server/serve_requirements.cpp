@@ -11,6 +11,7 @@
 #include "game/net/record_file.h"
 #include "game/net/server/serving.h"
 #include "game/replication/attributes.h"
+#include "game/replication/update_policy.h"
 
 namespace rink::game {
 namespace {
@@ -71,6 +72,17 @@ void require_node(const ServeOptions& options) {
         "--nodes, --transport mpi: expected a --duration above 0, at which all end together");
 }
 
+/// Throws if other options ask for what clients that compute do not follow.
+void require_exact(const ServeOptions& options) {
+  if (options.policy != exact_policy) return;
+  if (!options.hosted.empty() || is_node(options) || options.pace != "realtime" ||
+      options.is_time_managed)
+    throw std::runtime_error(
+        "--policy exact: clients compute one game that goes on, of one server, in real time: a "
+        "hosted match, --nodes, --join, --transport mpi, --pace synchronous and --time-management "
+        "can't be given with it");
+}
+
 /// Throws if other options need a game from the scene's beginning.
 void require_beginning(const ServeOptions& options) {
   if (options.from_state.empty()) return;
@@ -125,6 +137,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   require_always(options);
   require_beginning(options);
   require_node(options);
+  require_exact(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error(
         "--spread staggers writes to streams in real time: --pace synchronous and --transport "

@@ -2,6 +2,7 @@
 #include "game/net/server/serving.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "game/net/server/interest_report.h"
+#include "game/net/server/push_exact.h"
 #include "game/net/server/push_filter_hints.h"
 #include "game/replication/filter_setup.h"
 
@@ -49,6 +51,9 @@ Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& 
   links_.add(link_);
   host_.add(hub_);
   if (execution_.filter().traits().uses_flights) server_.hand_in_flights();
+  if (server.policy != exact_policy) return;
+  assert(!server.hosting && !server.shared && !server.is_synchronous && !server.is_time_managed);
+  exact_.emplace(server_.game(), scene, fom, server.tick_s);
 }
 
 void Serving::exchange(double longest_wait_s) {
@@ -65,6 +70,7 @@ TickCosts Serving::tick(double simulated_s, double due_s) {
   TickCosts costs;
   Stopwatch watch(now_s_);
   const double played_s = server_.simulate(simulated_s);
+  if (exact_) exact_->look();
   watch.add_to(costs.physics_s);
   if (send(played_s, due_s, costs)) {
     for (const Inspections::Question& each : server_.inspections().take())
@@ -87,9 +93,10 @@ bool Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   const bool is_hosting =
       server_.hosted() !=
       nullptr;  // players of matches ask for the time instead, which saves the bytes of the tag
-  const bool is_published = server_.publish(
-      {.time = simulated_s,
-       .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))});
+  const rti::Stamp stamp{
+      .time = simulated_s,
+      .tag = is_hosting ? 0 : static_cast<std::uint64_t>(std::llround(due_s * 1e9))};
+  const bool is_published = server_.publish(stamp);
   link_.flush(now_s_());
   host_.poll({});
   if (is_published) {
@@ -98,6 +105,7 @@ bool Serving::send(double simulated_s, double due_s, TickCosts& costs) {
     host_.match();
     if (shared_ != nullptr) look_around();
     watch.add_to(costs.filter_s);
+    if (exact_) push_exact(server_, *exact_, stamp, execution_);
   }
   host_.flush();
   watch.add_to(costs.send_s);

@@ -7,6 +7,7 @@
 
 #include "game/net/server/server.h"
 #include "game/net/server/server_recorder.h"
+#include "game/replication/exact/exact_feed.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
@@ -62,6 +63,8 @@ class Serving {
   /// Publishes, matches and flushes without playing: one write per destination. False if there was
   /// nothing to publish yet, and so nothing to match.
   bool send(double simulated_s, double due_s, TickCosts& costs);
+  /// What clients that compute are sent; null unless the policy is "exact".
+  const ExactFeed* exact() const { return exact_ ? &*exact_ : nullptr; }
 
  private:
   void look_around();
@@ -75,7 +78,8 @@ class Serving {
   rti::FederateLink link_;
   rti::FederateLinks links_;
   std::optional<ServerRecorder> recorder_;
-  SharedPlay* shared_;  ///< null: this server alone plays
+  SharedPlay* shared_;              ///< null: this server alone plays
+  std::optional<ExactFeed> exact_;  ///< under the policy "exact"
 };
 
 /// A federation under the filter `scheme` over the scene's field and among its posts; `cell_size`

@@ -101,6 +101,7 @@ void BotsRecorder::look_into(std::uint32_t place, double simulated_s) {
       replica.displayed = entity.position_at(simulated_s);
     trace_.replicas.push_back(replica);
   }
+  if (clients_[place]->computed() != nullptr) display_computed(place, simulated_s, first);
   trace_.samples.push_back({.bot = place,
                             .displayed_s = simulated_s,
                             .matched_s = matched_s_[place],
@@ -108,6 +109,19 @@ void BotsRecorder::look_into(std::uint32_t place, double simulated_s) {
                             .first = first,
                             .last = trace_.replicas.size()});
   received.clear();
+}
+
+/// Who computes displays what it plays on to without news, which the next news take back.
+void BotsRecorder::display_computed(std::uint32_t place, double simulated_s, std::size_t first) {
+  clients_[place]->computed()->look_ahead(simulated_s);
+  for (std::size_t k = first; k < trace_.replicas.size(); ++k) {
+    BotsTrace::Replica& replica = trace_.replicas[k];
+    if (replica.is_in_scope)
+      replica.displayed = clients_[place]
+                              ->replicas()
+                              .find(rti::ObjectHandle{replica.object})
+                              ->position_at(simulated_s);
+  }
 }
 
 std::uint32_t BotsRecorder::bytes_of(std::span<const Received> received,

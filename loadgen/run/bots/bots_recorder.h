@@ -42,6 +42,7 @@ class BotsRecorder {
 
   void note(std::uint32_t place, const game::BotsTrace::ScopeChange& change);
   void look_into(std::uint32_t place, double simulated_s);
+  void display_computed(std::uint32_t place, double simulated_s, std::size_t first);
   std::uint32_t bytes_of(std::span<const Received> received, std::uint32_t object) const;
 
   game::SamplingSettings settings_;

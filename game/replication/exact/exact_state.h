@@ -1,0 +1,260 @@
+// The state of a body to the last bit, as the policy "exact" sends it (docs/replication.md).
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "game/physics/body_state.h"
+#include "rti/wire/bit_stream.h"
+
+namespace rink::game {
+
+/// What the bodies of a scene have in common, so that a state need not repeat it.
+struct ExactClass {
+  physics::BodyKind kind = physics::BodyKind::puck;
+  std::uint8_t team = 2;                   ///< a Team
+  double mass = 1.0;                       ///< kg; infinite for posts
+  double radius = 0.0;                     ///< m
+  physics::Vector2 half_extent{0.0, 0.0};  ///< of bats [m]
+  double thrust = 0.0;                     ///< of bats: what each held key adds [m/s^2]
+  physics::MaterialId material = 0;
+  physics::Half half = physics::Half::both;  ///< of bats
+  friend bool operator==(const ExactClass&, const ExactClass&) = default;
+};
+
+/// The direction in which a bat is driven: -1, 0 or 1 along each axis.
+struct Drive {
+  std::int8_t x = 0, y = 0;
+  friend bool operator==(const Drive&, const Drive&) = default;
+};
+
+/// A body's state at its last event with all that holds it in place: its rest contacts, and who is
+/// in a jam with it.
+struct ExactState {
+  physics::BodyState body;
+  Drive drive;
+  std::vector<physics::RestContact> rest_contacts;
+  std::vector<std::uint32_t> jammed_with;
+};
+
+/// A body of `exact_class` that nothing has happened to.
+inline physics::BodyState body_of(const ExactClass& exact_class, const physics::WorldSpec& spec) {
+  physics::BodyState body;
+  body.kind = exact_class.kind;
+  body.mass = exact_class.mass;
+  body.inverse_mass = exact_class.kind == physics::BodyKind::post ? 0.0 : 1.0 / exact_class.mass;
+  body.flight.radius = exact_class.radius;
+  body.half_extent = exact_class.half_extent;
+  body.material = exact_class.material;
+  body.half = exact_class.half;
+  body.drag = physics::Vector2::Constant(
+      exact_class.kind == physics::BodyKind::bat ? spec.bat_drag : spec.puck_drag);
+  return body;
+}
+
+/// Whether the counts of its impacts can have no effect after `now` [s]: the next impact begins
+/// them anew, and until then they are below all that anybody asks for (docs/replication.md, "What a
+/// state needs").
+inline bool are_impacts_over(const physics::BodyState& body, double now, double contact_time) {
+  constexpr std::uint32_t asked_for_min = 8;
+  return now - body.impacts_begin > contact_time && body.impacts < asked_for_min &&
+         body.repeats_instant < now;
+}
+/// As are_impacts_over(), of the hops of clusters that it was in.
+inline bool are_hops_over(const physics::BodyState& body, double now, double contact_time) {
+  return body.hops == 0 && now - body.last_hop > 8.0 * contact_time;
+}
+
+/// Bodies are numbered below this.
+inline constexpr std::uint32_t exact_number_max = 1u << 24;
+
+namespace exact {
+
+inline constexpr double speed_max = 1000.0;  ///< of received states, beyond all scenes [m/s]
+inline constexpr std::uint64_t list_max = 1u << 20;
+
+template <class Stream>
+bool count(Stream& stream, std::uint64_t& value, std::uint64_t max, unsigned order) {
+  if constexpr (!Stream::is_reading) assert(value <= max);
+  return stream.golomb(value, order) && value <= max;
+}
+
+template <class Stream, class Number>
+bool small(Stream& stream, Number& value, std::uint64_t max, unsigned order) {
+  std::uint64_t wide = static_cast<std::uint64_t>(value);
+  if (!count(stream, wide, max, order)) return false;
+  if constexpr (Stream::is_reading) value = static_cast<Number>(wide);
+  return true;
+}
+
+/// The length of a list; a reader resizes it, to no more elements than there are bits left.
+template <class Stream, class List>
+bool size(Stream& stream, List& list) {
+  std::uint64_t length = list.size();
+  if (!count(stream, length, list_max, 0)) return false;
+  if constexpr (Stream::is_reading) {
+    if (length > stream.left()) return false;
+    list.resize(static_cast<std::size_t>(length));
+  }
+  return true;
+}
+
+inline std::uint64_t folded(std::int64_t value) {
+  return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
+}
+inline std::int64_t unfolded(std::uint64_t value) {
+  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
+
+/// Every bit of a finite double whose exponent is near `exponent` (that of 2^exponent): 57 bits
+/// mostly.
+template <class Stream>
+bool near(Stream& stream, double& value, int exponent) {
+  constexpr std::uint64_t mantissa_mask = (std::uint64_t{1} << 52) - 1;
+  std::uint64_t word = std::bit_cast<std::uint64_t>(value);
+  bool is_negative = word >> 63 != 0;
+  std::uint64_t mantissa = word & mantissa_mask,
+                off = folded(1023 + exponent - static_cast<std::int64_t>(word >> 52 & 0x7ff));
+  if (!stream.flag(is_negative) || !stream.golomb(off, 2) || !stream.bits(mantissa, 52))
+    return false;
+  if constexpr (Stream::is_reading) {
+    if (off > 4096) return false;
+    const std::int64_t biased = 1023 + exponent - unfolded(off);
+    if (biased < 0 || biased > 2046) return false;
+    word = static_cast<std::uint64_t>(is_negative) << 63 |
+           static_cast<std::uint64_t>(biased) << 52 | mantissa;
+    value = std::bit_cast<double>(word);
+  }
+  return true;
+}
+
+/// Every bit of a double that begins as `like` does.
+template <class Stream>
+bool like(Stream& stream, double& value, double like) {
+  const std::uint64_t base = std::bit_cast<std::uint64_t>(like);
+  std::uint64_t differing = std::bit_cast<std::uint64_t>(value) ^ base;
+  auto width = static_cast<std::uint64_t>(std::bit_width(differing));
+  if (!stream.bits(width, 7) || width > 64) return false;
+  // The first differing bit is known to be one.
+  std::uint64_t rest = width == 0 ? 0 : differing & ~(std::uint64_t{1} << (width - 1));
+  if (width > 1 && !stream.bits(rest, static_cast<unsigned>(width) - 1)) return false;
+  if constexpr (Stream::is_reading) {
+    differing = width == 0 ? 0 : rest | std::uint64_t{1} << (width - 1);
+    value = std::bit_cast<double>(base ^ differing);
+  }
+  return true;
+}
+
+/// A double that may be infinite but is a number.
+template <class Stream>
+bool any(Stream& stream, double& value) {
+  return stream.full(value) && !std::isnan(value);
+}
+template <class Stream>
+bool any(Stream& stream, physics::Vector2& value) {
+  return any(stream, value.x()) && any(stream, value.y()) && value.allFinite();
+}
+
+template <class Stream>
+bool exchange(Stream& stream, Drive& drive) {
+  std::int64_t x = drive.x, y = drive.y;
+  if (!stream.ranged(x, -1, 1) || !stream.ranged(y, -1, 1)) return false;
+  if constexpr (Stream::is_reading)
+    drive = {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y)};
+  return true;
+}
+
+template <class Stream>
+bool partner(Stream& stream, physics::Partner& value) {
+  bool is_body = physics::is_body(value);
+  if (!stream.flag(is_body)) return false;
+  std::uint64_t word = is_body ? value : value - physics::partner::field_parts;
+  if (is_body ? !count(stream, word, exact_number_max - 1, 8) : !stream.bits(word, 4)) return false;
+  if constexpr (Stream::is_reading)
+    value = static_cast<physics::Partner>(is_body ? word : physics::partner::field_parts + word);
+  return true;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, physics::RestContact& rest) {
+  std::int64_t axis = rest.axis;
+  if (!partner(stream, rest.low) || !partner(stream, rest.high) || rest.low == rest.high ||
+      !stream.ranged(axis, 0, 1) || !any(stream, rest.pull_time) || !any(stream, rest.force) ||
+      !any(stream, rest.turn_time) || !any(stream, rest.age.time) ||
+      !stream.flag(rest.age.follows_keys) || !stream.bits(rest.age.lower, 32) ||
+      !stream.bits(rest.age.higher, 32) || !stream.bits(rest.age.rank, 32))
+    return false;
+  if constexpr (Stream::is_reading) rest.axis = static_cast<int>(axis);
+  return std::isfinite(rest.age.time);
+}
+
+/// All that a state may have beside its flight, each part behind a flag that says whether it is as
+/// of a body that flies by its own law and was hit long ago.
+template <class Stream>
+bool exchange_rest(Stream& stream, ExactState& state, const physics::BodyState& own, double now,
+                   double contact_time) {
+  physics::BodyState& b = state.body;
+  bool has_law = b.acceleration != own.acceleration || b.drag != own.drag,
+       has_impacts = !are_impacts_over(b, now, contact_time),
+       has_hops = !are_hops_over(b, now, contact_time),
+       has_slide = b.rest_time != own.rest_time || b.slowing != own.slowing,
+       has_spin = b.spin != 0.0, is_lasting = b.flags != 0 || b.mouth != 0;
+  if (!stream.flag(has_law) || !stream.flag(has_impacts) || !stream.flag(has_hops) ||
+      !stream.flag(has_slide) || !stream.flag(has_spin) || !stream.flag(is_lasting))
+    return false;
+  if (has_law && !(any(stream, b.acceleration) && any(stream, b.drag))) return false;
+  if (has_impacts && !(any(stream, b.impacts_begin) && any(stream, b.repeats_instant) &&
+                       stream.bits(b.impacts, 32) && stream.bits(b.repeats, 32)))
+    return false;
+  if (has_hops && !(any(stream, b.last_hop) && stream.bits(b.hops, 32))) return false;
+  if (has_slide && !(any(stream, b.rest_time) && any(stream, b.slowing))) return false;
+  if (has_spin && !(any(stream, b.spin) && std::isfinite(b.spin))) return false;
+  return !is_lasting ||
+         (stream.bits(b.flags, 8) && stream.bits(b.mouth, 2) &&
+          small(stream, b.jam, exact_number_max - 1, 8) && size(stream, state.rest_contacts) &&
+          std::ranges::all_of(state.rest_contacts,
+                              [&](auto& each) { return exchange(stream, each); }) &&
+          size(stream, state.jammed_with) &&
+          std::ranges::all_of(state.jammed_with, [&](auto& each) {
+            return small(stream, each, exact_number_max - 1, 8);
+          }));
+}
+
+/// `state` of a body of `exact_class` as of `now` [s]. A reader's state has defaults.
+template <class Stream>
+bool exchange(Stream& stream, ExactState& state, const ExactClass& exact_class,
+              const physics::WorldSpec& spec, double now) {
+  const bool is_bat = exact_class.kind == physics::BodyKind::bat;
+  if (is_bat && !exchange(stream, state.drive)) return false;
+  physics::BodyState own = body_of(exact_class, spec);
+  own.thrust = exact_class.thrust * physics::Vector2(state.drive.x, state.drive.y);
+  if (is_bat) own.acceleration = own.thrust;
+  if constexpr (Stream::is_reading) state.body = own;
+  bool is_plain = false;
+  if constexpr (!Stream::is_reading) {
+    const physics::BodyState& b = state.body;
+    is_plain = b.acceleration == own.acceleration && b.drag == own.drag && b.spin == 0.0 &&
+               b.rest_time == own.rest_time && b.slowing == own.slowing && b.flags == 0 &&
+               b.mouth == 0 && are_impacts_over(b, now, spec.contact_time) &&
+               are_hops_over(b, now, spec.contact_time);
+  }
+  physics::Flight& f = state.body.flight;
+  return near(stream, f.x, 3) && near(stream, f.y, 2) && near(stream, f.vx, -1) &&
+         near(stream, f.vy, -1) && like(stream, f.time, now) && stream.flag(is_plain) &&
+         (is_plain || exchange_rest(stream, state, own, now, spec.contact_time));
+}
+
+}  // namespace exact
+
+/// Whether a received state could be one in `spec` at `now` [s], as far as it tells by itself.
+bool is_possible(const ExactState& state, const physics::WorldSpec& spec, double now);
+
+/// A number that two states share only if all is equal on which the future of bodies depends that
+/// are out of the reach of their impact histories.
+std::uint64_t digest_of(std::uint32_t number, const physics::BodyState& body);
+
+}  // namespace rink::game

@@ -1,0 +1,159 @@
+// Under the policy "exact" whatever a client knows is as at the server, to the last bit, whoever
+// comes, goes, scores, rests or is hit by somebody unknown.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/exact/exact_rink.h"
+
+namespace rink::game::test {
+namespace {
+
+LockstepSettings settings_for(const Scene& scene, std::uint64_t seed, double seconds,
+                              double view_fraction) {
+  return {.scheme = view_fraction >= 1.0 ? "none" : "region",
+          .clients = 6,
+          .view_fraction = view_fraction,
+          .view_margin = 0.3,
+          .server = {.policy = "exact", .replay = keys_for(scene, seed, seconds)}};
+}
+
+TEST(Exact, WhoSeesAllIsSentKeysAndComputesTheRest) {
+  const Scene scene = small_crowd();
+  LockstepRink rink(scene, settings_for(scene, 5, 8.0, 1.0));
+  rink.start();
+  Compared compared;
+  follow(rink, 240, "all", compared);
+  const ExactReplicaCounters sum = counted(rink);
+  EXPECT_GT(compared.bodies, 6u * 200u * 100u);
+  EXPECT_GT(sum.keys, 100u);
+  EXPECT_GT(sum.hashes, 30u);
+  EXPECT_EQ(sum.wrong_hashes + sum.malformed, 0u);
+  EXPECT_EQ(sum.starts, 6u);
+  RecordProperty("told", std::to_string(sum.doubtful));
+}
+
+TEST(Exact, WhoSeesAPartComputesItThroughEntriesExitsAndHitsFromBeyond) {
+  std::uint64_t told = 0, entries = 0, exits = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene = with_seed(small_crowd(), seed);
+    LockstepRink rink(scene, settings_for(scene, seed, 6.0, 0.2));
+    rink.start();
+    Compared compared;
+    follow(rink, 180, "seed " + std::to_string(seed), compared);
+    if (HasFatalFailure()) return;
+    const ExactReplicaCounters sum = counted(rink);
+    EXPECT_EQ(sum.wrong_hashes + sum.malformed, 0u) << "seed " << seed;
+    told += sum.doubtful, entries += sum.entries, exits += sum.exits;
+  }
+  EXPECT_GT(told, 50u);
+  EXPECT_GT(entries, 500u);
+  EXPECT_GT(exits, 300u);
+  RecordProperty("told", std::to_string(told));
+  RecordProperty("entries", std::to_string(entries));
+}
+
+TEST(Exact, WhoComesLateKnowsAllAtOnce) {
+  Scene scene = small_crowd();
+  scene.bodies.bats.resize(4);
+  LockstepRink rink(scene, {.scheme = "region",
+                            .clients = 2,
+                            .view_fraction = 0.3,
+                            .view_margin = 0.3,
+                            .server = {.policy = "exact", .replay = keys_for(scene, 3, 20.0)}});
+  rink.start();
+  Compared compared;
+  follow(rink, 100, "before", compared);
+  for (const char* name : {"bat-2", "bat-3"}) {
+    rink.add_client(name);
+    follow(rink, 60, name, compared);
+  }
+  rink.add_client("watcher", true);
+  follow(rink, 30, "with a watcher", compared);
+  ASSERT_NE(rink.client(4).computed(), nullptr);
+  EXPECT_GT(rink.client(4).computed()->exact().bodies().size(), 10u);
+  EXPECT_EQ(counted(rink).starts, 5u);
+}
+
+/// Live players: a bat that left and came back is another body.
+TEST(Exact, BatsThatLeaveAndComeBackAreUnknownUntilTheTickEnds) {
+  Scene scene = small_crowd();
+  scene.bodies.bats.resize(5);
+  LockstepRink rink(scene, {.scheme = "region",
+                            .clients = 5,
+                            .view_fraction = 0.5,
+                            .view_margin = 0.3,
+                            .server = {.policy = "exact", .replay = {}, .key_limit_per_s = 0.0}});
+  rink.start();
+  Compared compared;
+  for (int round = 0; round < 4; ++round) {
+    for (std::size_t k = 0; k < 4; ++k)
+      if (rink.client(k).state() == Client::State::playing) {
+        rink.client(k).press(all_keys[(k + static_cast<std::size_t>(round)) % 4]);
+        rink.now += 0.003;
+      }
+    follow(rink, 20, "round " + std::to_string(round), compared);
+    if (round == 1) rink.leave(4);
+    if (round == 2) rink.add_client("bat-4");
+  }
+  ASSERT_FALSE(HasFatalFailure());
+  EXPECT_EQ(rink.client(5).state(), Client::State::playing);
+  EXPECT_GT(counted(rink).keys, 10u);
+}
+
+TEST(Exact, PucksThatScoreAndAreFacedOffStayExact) {
+  Scene scene = small_crowd();
+  scene.world.field.goal_width = 0.8 * scene.world.field.width;
+  scene.rules.face_off_delay = 0.4;
+  LockstepRink rink(scene, settings_for(scene, 9, 8.0, 0.4));
+  rink.start();
+  Compared compared;
+  follow(rink, 200, "goals", compared);
+  EXPECT_GT(rink.server().game().world().counters().goals, 20u);
+}
+
+/// Bats without bounce that press pucks and each other against walls: rest contacts, pushed rows,
+/// jams.
+TEST(Exact, RestContactsAndPilesStayExactThoughSomeKnowHalfOfThem) {
+  std::uint64_t held = 0, rests = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Scene scene = with_seed(small_crowd(), seed);
+    scene.world.restitution = physics::RestitutionTable(scene.materials.size(), 0.1);
+    for (Bat& bat : scene.bodies.bats) bat.thrust = 12.0;
+    LockstepRink rink(scene, settings_for(scene, seed, 6.0, 0.15));
+    rink.start();
+    Compared compared;
+    follow(rink, 180, "piles of seed " + std::to_string(seed), compared);
+    if (HasFatalFailure()) return;
+    EXPECT_EQ(counted(rink).wrong_hashes, 0u) << seed;
+    held += compared.held_by_unknown, rests += rink.server().game().world().counters().rests;
+  }
+  EXPECT_GT(rests, 100u);
+  RecordProperty("held_by_unknown", std::to_string(held));
+}
+
+TEST(Exact, AClientThatLooksAheadTakesItBackWhenNewsCome) {
+  const Scene scene = small_crowd();
+  LockstepRink rink(scene, settings_for(scene, 4, 4.0, 0.3));
+  rink.start();
+  Compared compared;
+  for (int tick = 0; tick < 100 && !HasFatalFailure(); ++tick) {
+    for (std::size_t k = 0; k < rink.client_count(); ++k)
+      for (int step = 1; step <= 3; ++step)
+        rink.client(k).computed()->look_ahead(rink.now + 0.02 * step);
+    follow(rink, 1, "ahead", compared);
+  }
+  EXPECT_EQ(counted(rink).wrong_hashes, 0u);
+}
+
+TEST(Exact, WhoDoesNotComputeIsSentTrajectoriesBesideOthersWhoDo) {
+  const Scene scene = small_crowd();
+  LockstepRink rink(scene, settings_for(scene, 4, 4.0, 1.0));
+  rink.start();
+  rink.run(1.0);
+  EXPECT_NE(rink.client(0).computed(), nullptr);
+  EXPECT_EQ(rink.exact_feed()->counters().starts, 6u);
+}
+
+}  // namespace
+}  // namespace rink::game::test
