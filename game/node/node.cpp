@@ -99,9 +99,8 @@ void Node::meet() {
     table.assign(node, network_->peer_infos()[node].first_bat,
                  network_->peer_infos()[node].bat_count);
   seats_.emplace(std::move(table), number(), terms().peer_count);
-  feed_.emplace(terms().peer_count, end_of_window(terms(), 1));
-  receiver_.emplace(game_.start().world(), terms(), number(), *feed_);
-  seat_players();
+  feed_.emplace(match_ ? 1 : terms().peer_count, end_of_window(terms(), 1));
+  if (!match_) receiver_.emplace(game_.start().world(), terms(), number(), *feed_), seat_players();
   thread_ = std::thread([this] { run(); });
 }
 
@@ -170,7 +169,9 @@ void Node::play() {
     };
   if (match_) options.is_stopped = [this](std::uint64_t window) { return match_->is_last(window); };
   else options.when_taken = [this] { game_.forget_start(); };
-  outcome_.part = game_.play(terms(), network_->peer_infos(), number(), *network_, options);
+  outcome_.part = match_
+                      ? play_whole(options)
+                      : game_.play(terms(), network_->peer_infos(), number(), *network_, options);
   session_ = nullptr;
 }
 
@@ -184,13 +185,14 @@ void Node::before_window(peer::Session& session) {
   session_ = &session;
   if (match_) await_match_window(session);
   if (session.window() == 0) {
-    session.peer().keep_changes(), teller_->begin(session.peer());
+    session.peer().keep_changes();
+    if (!match_) teller_->begin(session.peer());
     for (const auto& [player, node] : seats_->holders())
       take_over({.node = node, .player = player}, session);
   }
   agree_on_seats(session);
   pass_on_keys();
-  if (match_) return;  // all are told of everything, which is little
+  if (match_) return match_->rounds().exchange(*network_, game_, *seats_, session);
   const std::optional<Cells> cells = subscription_.take();
   if (!cells) return;
   WantedCells wanted{.step = session.step() + 1, .side = cells->side(), .runs = cells->runs()};
@@ -211,8 +213,10 @@ void Node::pass_on_wishes() {
 
 void Node::pass_on_keys() {
   if (session_ == nullptr) return;
-  for (auto& [owner, keys] : players_->take(*session_))
-    if (owner != number()) say(*network_, owner, NodeMessage::keys, bytes_of(std::move(keys)));
+  for (auto& [owner, keys] : players_->take(*session_, match_.has_value()))
+    if (match_)
+      for (const peer::Press& key : keys.words) match_->rounds().press(key);
+    else if (owner != number()) say(*network_, owner, NodeMessage::keys, bytes_of(std::move(keys)));
     else session_->peer().receive(owner, keys.words);
 }
 
@@ -240,9 +244,11 @@ void Node::agree_on_seats(peer::Session& session) {
 void Node::take_over(const SeatDecision& decision, peer::Session& session) {
   if (decision.player == no_player) return;
   const std::uint32_t bat = game_.start().bat(decision.player)->index;
-  teller_->seat(decision.node, bat);
-  session.peer().players().move_seat(
-      {.bat = bat, .peer = decision.node, .period = 0.0, .puck_count = 0});
+  if (!match_) teller_->seat(decision.node, bat);
+  session.peer().players().move_seat({.bat = bat,
+                                      .peer = match_ ? session.peer().number() : decision.node,
+                                      .period = 0.0,
+                                      .puck_count = 0});
   if (decision.node == number()) players_->seat(decision.player);
   else players_->unseat(decision.player);
 }
@@ -255,6 +261,10 @@ void Node::after_stretch(const peer::Session& session) {
   std::erase_if(change.bodies, [&](const peer::Handover::Body& body) {
     return session.peer().world().kind({body.number}) == physics::BodyKind::post;
   });
+  if (match_) {
+    feed_->expect(session.scoring(), session.peer().end());
+    return feed_->add(0, std::move(change));
+  }
   teller_->look(session.peer(), change, session.is_over());
   for (peer::PeerNumber to = 0; to < terms().peer_count; ++to)
     if (to != number())
@@ -270,12 +280,12 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
   switch (static_cast<NodeMessage>(bytes.back())) {
     case NodeMessage::change: {
       peer::PartChange change;
-      return session_ != nullptr && read(content, change) &&
+      return !match_ && session_ != nullptr && read(content, change) &&
              receiver_->receive(from, std::move(change));
     }
     case NodeMessage::wanted_cells: {
       WantedCells wanted;
-      return peer::read_whole(content, wanted) && teller_->follow(from, wanted);
+      return !match_ && peer::read_whole(content, wanted) && teller_->follow(from, wanted);
     }
     case NodeMessage::seat_wishes: {
       const auto wishes = message_from<ListOf<SeatWish>>(content);
@@ -291,8 +301,8 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
     }
     case NodeMessage::keys: {
       const auto keys = message_from<ListOf<peer::Press>>(content);
-      if (!keys) return false;
-      // Else they were pressed as a match ended here.
+      if (!keys || match_) return false;
+      // Else all has been played here.
       if (session_ != nullptr) session_->peer().receive(from, keys->words);
       return true;
     }
@@ -324,7 +334,7 @@ std::optional<ShownWindow> Node::show_next(double until, Game& game) {
   const auto stretch = feed_->take(until + rounding_s);
   if (!stretch) {
     check();
-    if (is_over && feed_->taken() < feed_->count(number()) &&
+    if (is_over && feed_->taken() < feed_->count(match_ ? 0 : number()) &&
         feed_->end_of(feed_->taken() + 1) <= until)
       throw SessionError(ExitStatus::failed,
                          "another node has ended without telling what it played last");

@@ -120,6 +120,7 @@ class Node final : public SharedPlay, private WindowParticipant {
   void play();
   // node_hosting.cpp
   void host();
+  PlayedPart play_whole(const PartOptions& options);
   void await_match_window(const peer::Session& session);
 
   void pass_on_wishes();

@@ -1,7 +1,7 @@
 // Hosts matches with other nodes, one session each: node 0 keeps to the rules, and while it waits
 // with a window all wait.
 #include <algorithm>
-#include <string>
+#include <array>
 
 #include "game/node/node.h"
 
@@ -26,20 +26,22 @@ void Node::host() {
     seats_->due(next);
     players_->begin_session(seats_->own());
     feed_->begin_session(end_of_window(terms(), 1));
-    receiver_.emplace(game_.start().world(), terms(), number(), *feed_);
-    seat_players();
     match_->begin_session();
     play();
-    for (peer::PeerNumber node = 0; node < terms().peer_count; ++node)
-      if (feed_->count(node) != feed_->count(number()))
-        throw peer::ProtocolError("node " + std::to_string(node) +
-                                  " ended a match without telling what it played last");
-    match_->end_session(outcome_.part.time, feed_->count(number()));
+    match_->rounds().confirm(*network_, *seats_, outcome_.part.hash);
+    match_->end_session(outcome_.part.time, feed_->count(0));
     const std::uint32_t wanted = game_.scene().rules.goals_to_win.value_or(0);
     if (number() == 0 && std::max(outcome_.part.score.left, outcome_.part.score.right) >= wanted)
       match_->win(outcome_.part.score.left > outcome_.part.score.right ? Team::left : Team::right,
                   outcome_.part.time);
   }
+}
+
+/// Each node plays the whole of a match, as one peer that is alone.
+PlayedPart Node::play_whole(const PartOptions& options) {
+  Terms alone = terms();
+  alone.peer_count = 1, alone.balance_windows = 0;
+  return game_.play(alone, std::array{PeerInfo{}}, 0, *network_, options);
 }
 
 /// A pause is waited for here, so that keys that are pressed in it go with the next window. A match
@@ -49,7 +51,7 @@ void Node::await_match_window(const peer::Session& session) {
   for (;; network_->rest_until(now_s_() + look_s)) {
     decide_seats(NodeSeats::instant_of(match_->begun(), session.window() + 1), clock_s());
     if (number() == 0 && match_->is_given_up()) match_->end_after(session.window() + 1);
-    network_->before_wait();  // the news goes before the window's claims
+    network_->before_wait();  // the news goes before the window's round
     const MatchNews& news = match_->news();
     if (news.last_window != 0 || (number() != 0 && news.is_given_up())) return;
     const double wait_s = begin - simulated_at(news.state, clock_s());

@@ -53,7 +53,7 @@ bool NodeMatch::follow(const MatchNews& news) {
 
 void NodeMatch::begin_session() {
   assert(begins());
-  ++begun_;
+  ++begun_, rounds_.begin_session();
   last_window_ = news_.last_window;
   const std::lock_guard lock(mutex_);
   sessions_.push_back({.match = news_.match});
@@ -82,7 +82,8 @@ std::optional<MatchNews> NodeMatch::advance(double now_s) {
   constexpr double silence_s_max = 0.25;
   flow_.advance(now_s);
   next_.state = flow_.state();
-  if (next_ == news_ && now_s < told_s_ + silence_s_max) return std::nullopt;
+  const bool is_heard = news_.state.phase == MatchPhase::playing || now_s < told_s_ + silence_s_max;
+  if (next_ == news_ && is_heard) return std::nullopt;
   told_s_ = now_s;
   [[maybe_unused]] const bool may_be = follow(next_);
   assert(may_be);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "game/net/server/shared_play.h"
+#include "game/node/match_rounds.h"
 #include "game/node/match_words.h"
 
 namespace rink::game {
@@ -35,6 +36,7 @@ class NodeMatch final : public SharedMatch {
   bool has_shown_all() const;
 
   std::vector<MatchWish> take_wishes();
+  MatchRounds& rounds() { return rounds_; }
   const MatchNews& news() const { return news_; }
   /// False for what node 0 never says.
   bool follow(const MatchNews& news);
@@ -52,7 +54,8 @@ class NodeMatch final : public SharedMatch {
   void take_part(std::uint32_t player, bool is_here, double now_s);
   void apply(const MatchWish& wish, double now_s);
   /// Lets time pass. Answers what the others are to be told: news, and now and then the old, for a
-  /// node that waits for its players and says nothing would be taken for lost.
+  /// node that waits for its players and says nothing would be taken for lost. While the match is
+  /// played its rounds are heard.
   std::optional<MatchNews> advance(double now_s);
   /// A match waits for its session, which no other may hold up.
   bool wants_session() const;
@@ -74,6 +77,7 @@ class NodeMatch final : public SharedMatch {
   };
 
   MatchFlow flow_;
+  MatchRounds rounds_;
   MatchNews news_, next_;  ///< as told; and, at node 0, what is to be told, but for the state
   double told_s_ = 0.0;
   std::uint64_t begun_ = 0, ended_stretches_ = 0;  ///< sessions; and stretches of those that ended

@@ -30,6 +30,9 @@ class NodeSeats {
     assert(own < node_count);
   }
 
+  peer::PeerNumber number() const { return own_; }
+  peer::PeerNumber node_count() const { return node_count_; }
+
   void wish(const SeatWish& wish) {
     const std::lock_guard lock(mutex_);
     wishes_.push_back(wish);

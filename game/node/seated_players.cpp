@@ -73,7 +73,8 @@ void SeatedPlayers::leave(std::uint32_t player) {
   left_.insert(player);
 }
 
-std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Session& session) {
+std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Session& session,
+                                                                    bool begins_together) {
   std::map<peer::PeerNumber, ListOf<peer::Press>> taken;
   if (session.window() == 0)
     for (Player& player : players_)
@@ -98,7 +99,7 @@ std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Sessio
                             .thrust = player.pressed.thrust(),
                             .input = input_of(event),
                             .time = pressed.time};
-    if (session.window() == 0) {
+    if (session.window() == 0 && !begins_together) {
       session.press(player.seen, press);  // its owner may not have begun
     } else {
       session.press(press);

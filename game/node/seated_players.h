@@ -37,8 +37,10 @@ class SeatedPlayers {
   /// are seated here; others wait, as in `seat`, until their bats' owners have shown them.
   void begin_session(std::span<const std::uint32_t> known);
   /// What is to be sent to the bats' owners now, by owner, ahead of the next window's claims; until
-  /// the first window was played it goes with these. Keys wait while a window is played.
-  std::map<peer::PeerNumber, ListOf<peer::Press>> take(peer::Session& session);
+  /// the first window was played it goes with these, but where owners begin it together. Keys wait
+  /// while a window is played.
+  std::map<peer::PeerNumber, ListOf<peer::Press>> take(peer::Session& session,
+                                                       bool begins_together);
   /// After a window: where the bats are now.
   void look(const peer::Session& session);
 

@@ -12,31 +12,32 @@ struct Listener final : Recorder {
 };
 
 /// A federate on connection 1 beside the witness.
-struct Served : Bare {
+struct Served {
+  Bare bare;
   Listener heard;
   Ambassador guest{harbour(), heard};
   Served() {
-    execution.connect(1);
+    bare.execution.connect(1);
     guest.join("rink", "guest", "tester");
     pass_on();
     guest.subscribe_object_class_attributes(vessel, motion);
     pass_on();
   }
   bool pass_on() {
-    execution.receive(1, guest.outgoing());
+    bare.execution.receive(1, guest.outgoing());
     guest.clear_outgoing();
-    tick();
-    const std::vector<std::byte> bytes = std::move(sent[1]);
-    sent[1].clear();
+    bare.tick();
+    const std::vector<std::byte> bytes = std::move(bare.sent[1]);
+    bare.sent[1].clear();
     return guest.receive(bytes);
   }
 };
 
 TEST(HostMessages, ReachTheirFederateAloneBehindAllElse) {
   Served served;
-  served.execution.send_host_message(served.guest.federate(), bytes_of("one"));
-  served.execution.send_host_message(served.guest.federate(), bytes_of(""));
-  served.execution.send_host_message(FederateHandle{99}, bytes_of("nobody"));
+  served.bare.execution.send_host_message(served.guest.federate(), bytes_of("one"));
+  served.bare.execution.send_host_message(served.guest.federate(), bytes_of(""));
+  served.bare.execution.send_host_message(FederateHandle{99}, bytes_of("nobody"));
   EXPECT_TRUE(served.pass_on());
   EXPECT_EQ(served.heard.told, (std::vector<std::string>{"one", ""}));
   EXPECT_TRUE(served.pass_on());
@@ -45,12 +46,12 @@ TEST(HostMessages, ReachTheirFederateAloneBehindAllElse) {
 
 TEST(HostMessages, ANoticeIsTakenOnce) {
   Served served;
-  EXPECT_FALSE(served.execution.take_notice(served.guest.federate()));
+  EXPECT_FALSE(served.bare.execution.take_notice(served.guest.federate()));
   served.guest.notify_host(), served.guest.notify_host();
   served.pass_on();
-  EXPECT_TRUE(served.execution.take_notice(served.guest.federate()));
-  EXPECT_FALSE(served.execution.take_notice(served.guest.federate()));
-  EXPECT_FALSE(served.execution.take_notice(FederateHandle{99}));
+  EXPECT_TRUE(served.bare.execution.take_notice(served.guest.federate()));
+  EXPECT_FALSE(served.bare.execution.take_notice(served.guest.federate()));
+  EXPECT_FALSE(served.bare.execution.take_notice(FederateHandle{99}));
   Recorder outside;
   Ambassador stranger(harbour(), outside);
   EXPECT_THROW(stranger.notify_host(), RtiException);
@@ -59,24 +60,24 @@ TEST(HostMessages, ANoticeIsTakenOnce) {
 TEST(HostMessages, WhoIsServedByTheHostHasAScopeAndIsToldNothingOfIt) {
   Served served;
   const FederateHandle guest = served.guest.federate();
-  served.execution.serve_by_host(guest, vessel);
-  const ObjectHandle ship = served.witness.register_object_instance(vessel, "ship");
-  served.witness.update_attribute_values(ship, motion, values_of(1.0f, 2.0f, 3.0f), {});
+  served.bare.execution.serve_by_host(guest, vessel);
+  const ObjectHandle ship = served.bare.witness.register_object_instance(vessel, "ship");
+  served.bare.witness.update_attribute_values(ship, motion, values_of(1.0f, 2.0f, 3.0f), {});
   EXPECT_TRUE(served.pass_on());
   EXPECT_TRUE(served.heard.objects.empty());
-  EXPECT_TRUE(served.execution.scope(guest)->contains(served.execution.slot_of(ship)));
+  EXPECT_TRUE(served.bare.execution.scope(guest)->contains(served.bare.execution.slot_of(ship)));
   std::vector<FederateHandle> subscribers;
-  served.execution.list_subscribers(vessel, speed, subscribers);
-  EXPECT_EQ(subscribers, (std::vector{served.witness.federate(), guest}));
-  served.witness.update_attribute_values(ship, motion, values_of(4.0f, 5.0f, 6.0f), {});
+  served.bare.execution.list_subscribers(vessel, speed, subscribers);
+  EXPECT_EQ(subscribers, (std::vector{served.bare.witness.federate(), guest}));
+  served.bare.witness.update_attribute_values(ship, motion, values_of(4.0f, 5.0f, 6.0f), {});
   EXPECT_TRUE(served.pass_on());
   EXPECT_TRUE(served.heard.objects.empty());
-  served.execution.serve_by_host(guest, {});
+  served.bare.execution.serve_by_host(guest, {});
   EXPECT_TRUE(served.pass_on());
   ASSERT_TRUE(served.heard.objects.contains(ship.value));
   EXPECT_TRUE(served.heard.objects[ship.value].is_in_scope);
   EXPECT_EQ(served.heard.objects[ship.value].values[speed.value], values_of(6.0f));
-  EXPECT_EQ(served.execution.scope(FederateHandle{99}), nullptr);
+  EXPECT_EQ(served.bare.execution.scope(FederateHandle{99}), nullptr);
 }
 
 TEST(HostMessages, OfAWrongSizeEndTheConnection) {

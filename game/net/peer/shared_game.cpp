@@ -273,6 +273,8 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
   settings.seats_of = [this](const peer::Player& player) { return seats(player); };
   // Views and updates are in order with claims and handovers alone.
   settings.keeps_to_neighbours = part_options.observer == nullptr;
+  // What a node tells of a window comes before its next verdict, from which others go on.
+  if (part_options.takes_latecomers) settings.tree_from = peer::members_max + 1;
   if (part_options.observer != nullptr) {
     settings.hooks.when_played = [&part_options] { part_options.observer->when_played(); };
     settings.hooks.when_told = [&part_options] { part_options.observer->when_told(); };

@@ -38,7 +38,7 @@ struct SessionSettings {
   /// members keep to neighbours (docs/peer-to-peer.md, "Agreement"). Equal for all.
   std::size_t tree_from = 16;
   bool agrees_by_tree(std::size_t member_count) const {
-    return keeps_to_neighbours && member_count >= tree_from;
+    return keeps_to_neighbours && member_count >= tree_from && member_count <= members_max;
   }
   std::function<std::vector<Seat>(const Player&)> seats_of{};
   WindowHooks hooks{};  ///< for callers; `when_final` is the session's own

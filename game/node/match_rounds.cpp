@@ -1,0 +1,156 @@
+// Says rounds, and turns their keys into those of the session.
+#include "game/node/match_rounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "game/model/time_grid.h"
+#include "game/physics/snapshot_stream.h"
+#include "game/physics/subdomain.h"
+#include "im/basics/fnv_hash.h"
+
+namespace rink::game {
+namespace {
+
+constexpr std::size_t check_size = 4;
+constexpr std::uint64_t window_mask = 0x3f, keys_bit = 0x40, always_bit = 0x80;
+
+/// Of the content and of the state together: either differs if it does.
+std::uint64_t check_of(std::span<const std::uint8_t> content, std::uint64_t state) {
+  Fnv64 hash;
+  for (const std::uint8_t byte : content) hash.add(byte);
+  for (int shift = 0; shift < 64; shift += 8) hash.add(static_cast<std::uint8_t>(state >> shift));
+  const std::uint64_t sum = hash.value();
+  return (sum ^ sum >> 32) & 0xffffffffULL;
+}
+
+/// Of another window than `round` is for it is false.
+bool read(std::span<const std::uint8_t> content, Round& round) {
+  ByteReader reader(std::as_bytes(content));
+  std::uint8_t head = 0;
+  if (!reader.number(head) || (head & always_bit) == 0 ||
+      (head & window_mask) != (round.window & window_mask))
+    return false;
+  const bool has_keys = (head & keys_bit) != 0;
+  return peer::exchange_part(reader, has_keys, round.keys) && reader.is_at_end() &&
+         round.keys.size() <= Round::keys_max;
+}
+
+std::uint32_t code_of(const peer::Press& press) {
+  const auto row = [](double along) { return along > 0.0 ? 2u : along < 0.0 ? 0u : 1u; };
+  return press.input - 1u + 8u * (3u * row(press.thrust.y()) + row(press.thrust.x()));
+}
+
+std::uint32_t steps_from(double start, double time) {
+  if (time <= start) return 0;
+  return static_cast<std::uint32_t>(
+      std::min(std::ceil((time - start) / key_grid), static_cast<double>(RoundKey::steps_max)));
+}
+
+bool holds(const NodeSeats& seats, peer::PeerNumber node, std::uint32_t player) {
+  const auto holder = seats.holders().find(player);
+  return holder != seats.holders().end() && holder->second == node;
+}
+
+}  // namespace
+
+std::uint64_t state_of(const peer::Session& session) {
+  Fnv64 hash;
+  hash.add_word(physics::hash_of(session.peer().share().subdomain()));
+  hash.add_word(std::uint64_t{session.scoring().left} << 32 | session.scoring().right);
+  return hash.value();
+}
+
+std::vector<std::uint8_t> written(const Round& round, std::uint64_t state) {
+  assert(round.keys.size() <= Round::keys_max);
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(64);
+  physics::SnapshotWriter writer(bytes);
+  auto head = static_cast<std::uint8_t>((round.window & window_mask) | always_bit |
+                                        (round.keys.empty() ? 0 : keys_bit));
+  std::vector<RoundKey> keys = round.keys;
+  writer.number(head), peer::exchange_part(writer, !keys.empty(), keys);
+  std::uint64_t check = check_of(bytes, state);
+  writer.part(check, check_size);
+  return bytes;
+}
+
+std::string fault_of(std::span<const std::uint8_t> bytes, std::uint64_t state, Round& round) {
+  const std::string window = std::to_string(round.window + 1);
+  if (bytes.size() < check_size) return "said no round of window " + window;
+  const auto content = bytes.first(bytes.size() - check_size);
+  if (!read(content, round)) return "said no round of window " + window;
+  std::uint64_t check = 0;
+  ByteReader(std::as_bytes(bytes.last(check_size))).part(check, check_size);
+  if (check == check_of(content, state)) return {};
+  return "has another state than this node before window " + window + " of the match";
+}
+
+peer::Vector2 thrust_of(const RoundKey& key, double thrust) {
+  assert(key.code < RoundKey::codes);
+  const std::uint32_t direction = key.code / 8;
+  return thrust * peer::Vector2(static_cast<double>(direction % 3) - 1.0,
+                                static_cast<double>(direction / 3) - 1.0);
+}
+
+std::vector<RoundKey> MatchRounds::take_keys(const SharedGame& game, const NodeSeats& seats,
+                                             double start) {
+  std::vector<RoundKey> keys;
+  std::vector<peer::Press> kept;
+  for (const peer::Press& press : std::exchange(pressed_, {})) {
+    const std::uint32_t player = *game.start().entity({press.bat}).player;
+    if (keys.size() == Round::keys_max || !holds(seats, seats.number(), player))
+      kept.push_back(press);
+    else keys.push_back({player, code_of(press), steps_from(start, press.time)});
+  }
+  pressed_ = std::move(kept);
+  return keys;
+}
+
+std::vector<Round> MatchRounds::said_by_all(peer::Mail& mail, const NodeSeats& seats, Round own,
+                                            std::uint64_t state) {
+  const std::vector<std::uint8_t> bytes = written(own, state);
+  for (peer::PeerNumber to = 0; to < seats.node_count(); ++to)
+    if (to != seats.number()) mail.send(to, bytes);
+  std::vector<Round> rounds(seats.node_count(), Round{.window = window_});
+  for (peer::PeerNumber from = 0; from < seats.node_count(); ++from) {
+    if (from == seats.number()) continue;
+    const std::string fault = fault_of(mail.receive(from), state, rounds[from]);
+    if (!fault.empty()) throw peer::ProtocolError("peer " + std::to_string(from) + " " + fault);
+  }
+  rounds[seats.number()] = std::move(own);
+  return rounds;
+}
+
+void MatchRounds::exchange(peer::Mail& mail, const SharedGame& game, const NodeSeats& seats,
+                           peer::Session& session) try {
+  assert(session.window() == window_);
+  peer::Peer& whole = session.peer();
+  const double start = whole.now();
+  const Round own{.window = window_, .keys = take_keys(game, seats, start)};
+  const std::vector<Round> rounds = said_by_all(mail, seats, own, state_of(session));
+  for (peer::PeerNumber from = 0; from < rounds.size(); ++from)
+    for (const RoundKey& key : rounds[from].keys) {
+      if (!holds(seats, from, key.player))
+        throw peer::ProtocolError("peer " + std::to_string(from) + " presses a key of player " +
+                                  std::to_string(key.player) + ", who does not play there");
+      const double thrust = game.scene().bodies.bats[key.player].thrust;
+      whole.receive(whole.number(),
+                    peer::Press{.bat = game.start().bat(key.player)->index,
+                                .thrust = thrust_of(key, thrust),
+                                .input = static_cast<std::uint8_t>(key.code % 8 + 1),
+                                .time = start + key.steps * key_grid});
+    }
+  ++window_;
+} catch (const peer::PeerGone& gone) {
+  throw peer::Halt(gone.what());
+}
+
+void MatchRounds::confirm(peer::Mail& mail, const NodeSeats& seats, std::uint64_t state) try {
+  said_by_all(mail, seats, {.window = window_}, state);
+} catch (const peer::PeerGone& gone) {
+  throw peer::Halt(gone.what());
+}
+
+}  // namespace rink::game
