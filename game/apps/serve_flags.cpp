@@ -203,6 +203,11 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(whole_number_from(0, 1'000'000u))
       .excludes(join)
       .shows_default();
+  flags
+      .flag("!--unmirrored", options.is_replicated,
+            "keep no replicas of other nodes' parts: a lost or interrupted node ends all; set by "
+            "the first node; matches and ranks of MPI have none")
+      .excludes(join);
   flags.option("--node-listen", options.node_listen,
                "ADDRESS:PORT at which other nodes reach this one; port 0: any free one, printed");
   flags
@@ -251,6 +256,10 @@ void serve_among_ranks(const Flags& flags, ServeOptions& options) {
   if (options.transport != "mpi") return;
   if (flags.is_given("--nodes") || flags.is_given("--join") || flags.is_given("--node-listen"))
     throw said_by_launcher("--nodes, --join, --node-listen");
+  if (flags.is_given("--unmirrored"))
+    throw std::invalid_argument(
+        "--unmirrored: MPI ends all ranks if one is lost, so they keep no replicas: it can't be "
+        "given with --transport mpi");
   options.is_rank = true;
   // Who asks for a server's status needs no datagrams.
   options.transport = options.status.empty() ? "udp" : "tcp";

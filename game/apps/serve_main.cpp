@@ -96,9 +96,10 @@ std::unique_ptr<Meeting> meeting_of(const ServeOptions& options, RankCommand& co
   if (!is_node(options)) return nullptr;
   const auto terms = [&](std::uint32_t nodes) {
     const double tick_s = 1.0 / options.rate_hz;
-    return options.hosted.empty()
-               ? terms_of_nodes(nodes, options.duration_s, tick_s, options.balance_windows)
-               : terms_of_matches(nodes, tick_s, options.balance_windows);
+    if (!options.hosted.empty()) return terms_of_matches(nodes, tick_s, options.balance_windows);
+    Terms all = terms_of_nodes(nodes, options.duration_s, tick_s, options.balance_windows);
+    all.is_replicated = options.is_replicated;
+    return all;
   };
   if (options.is_rank) return std::make_unique<RankMeeting>(command.ranks(), terms(1));
   const Place place = listening_place(options.node_listen, options.join, true,
@@ -121,6 +122,7 @@ std::unique_ptr<Node> node_of(ServeOptions& options, std::optional<SharedGame>& 
   settings.patience_s = options.node_patience_s, settings.gathering_s = options.patience_s;
   settings.reach = reach_of_clients(options, *game);
   settings.absence_s = options.absence_s;
+  settings.notify = [](const std::string& news) { warn(news); };
   auto node = std::make_unique<Node>(*game, *meeting, settings, now_s);
   if (const std::optional<Place> place = meeting->place()) {
     std::printf("nodes reach this one at %s\n", place->text().c_str());
@@ -140,9 +142,9 @@ double mean(std::uint64_t sum, std::uint64_t count) {
 }
 
 /// What all nodes have played together is what this one has shown, bit for bit.
-void end_together(Node& node, ServerProcess& process) {
+ExitStatus end_together(Node& node, ServerProcess& process) {
   process.show_rest();
-  if (is_interrupted || !process.server().error().empty()) return;
+  if (is_interrupted || !process.server().error().empty()) return ExitStatus::ok;
   const PlayedPart& part = node.finish();
   const std::string hash = hexadecimal(part.hash);
   std::printf("node %u of %u: hash %s at %g s, %zu keys, goals %u:%u\n", node.number(),
@@ -156,6 +158,9 @@ void end_together(Node& node, ServerProcess& process) {
   if (const std::uint64_t shown = process.server().game().hash(); shown != part.hash)
     throw SessionError(ExitStatus::failed, "this node has shown another game than was played: " +
                                                hexadecimal(shown) + " instead of " + hash);
+  if (!part.may_have_split) return ExitStatus::ok;
+  warn("this node went on alone, and the other may have done so too: the hash is that of one part");
+  return ExitStatus::may_have_split;
 }
 
 ExitStatus serve(ServeOptions& options, RankCommand& command) {
@@ -182,10 +187,11 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   const bool is_complete = process.start();
   const std::uint32_t came = process.server().seats().player_count();  // before they leave
   const std::string missing = is_complete ? "" : process.missing();
+  ExitStatus ending = ExitStatus::ok;
   std::exception_ptr lost;  // what ended a shared game early: reports and records come first
   if (is_complete) try {
       process.run();
-      if (node && options.hosted.empty()) end_together(*node, process);
+      if (node && options.hosted.empty()) ending = end_together(*node, process);
     } catch (const std::exception&) {
       if (!node) throw;
       lost = std::current_exception();
@@ -222,7 +228,7 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
                " s");
     return ExitStatus::nobody_came;
   }
-  return ExitStatus::ok;
+  return ending;
 }
 
 int status_of(const std::exception& error) {

@@ -19,7 +19,7 @@ namespace {
 Fingerprint fingerprint_of_nodes(const SharedGame& game) {
   Fingerprint fingerprint = game.session_fingerprint();
   StateHash keys;
-  keys.add(fingerprint.keys), keys.add(std::uint64_t{0x6e6f64657332});
+  keys.add(fingerprint.keys), keys.add(std::uint64_t{0x6e6f64657333});
   fingerprint.keys = keys.value();
   return fingerprint;
 }
@@ -43,6 +43,18 @@ Game::ShownScore shown_score(const peer::Scoring& scoring) {
   for (const peer::FaceOff& due : scoring.face_offs)
     shown.face_offs.push_back({due.time, {due.puck}, due.is_left ? Team::left : Team::right});
   return shown;
+}
+
+PartTeller teller_of(const SessionNetwork& network, const Game& start) {
+  const Terms& terms = network.terms();
+  PartTeller teller(start.world().spec().field, start.world().body_count(), terms.peer_count,
+                    network.number());
+  for (peer::PeerNumber to = 0; to < terms.peer_count; ++to) {
+    const PeerInfo& info = network.peer_infos()[to];
+    for (std::uint32_t player = info.first_bat; player < info.first_bat + info.bat_count; ++player)
+      teller.seat(to, start.bat(player)->index);
+  }
+  return teller;
 }
 
 /// If it fails, the other nodes that wait are told why there is no game.
@@ -80,39 +92,39 @@ void Node::meet() {
                              .session_fingerprint = fingerprint_of_nodes(game_),
                              .session = unguessable_number(),
                              .patience_s = settings_.patience_s,
+                             .admits_late = false,
                              .gathering_s = settings_.gathering_s,
                              .must_end = [this] { return is_interrupted != 0 || must_end_; }},
                             now_s_);
   game_.require_window(terms().window);
   gather(*network_);
   const std::string scheme = settings_.hosting ? matches_scheme : nodes_scheme;
-  if (terms().interest.scheme != scheme || terms().is_replicated || terms().is_seated ||
-      number() >= terms().peer_count)
+  const bool may_have_copies = !settings_.hosting && meeting_.survives_losses();
+  if (terms().interest.scheme != scheme || terms().is_seated || number() >= terms().peer_count ||
+      (terms().is_replicated && !may_have_copies))
     throw SessionError(ExitStatus::not_admitted,
                        "the first node gave terms that these nodes do not have: expected " +
-                           scheme + " without standby copies");
+                           scheme + (may_have_copies ? "" : " without standby copies"));
   game_.players(terms(), network_->peer_infos());  // or a greeting could name another's bats
   players_.emplace(game_, first_player(), player_count());
+  if (terms().is_replicated) players_->keep_unfelt();
   if (settings_.hosting) match_.emplace(*settings_.hosting);
   SeatTable table(game_.bat_count(), settings_.hosting ? 0.0 : settings_.absence_s);
   for (peer::PeerNumber node = 0; node < terms().peer_count; ++node)
     table.assign(node, network_->peer_infos()[node].first_bat,
                  network_->peer_infos()[node].bat_count);
-  seats_.emplace(std::move(table), number(), terms().peer_count);
+  seats_.emplace(std::move(table), number(), terms().peer_count, terms().is_replicated);
   feed_.emplace(match_ ? 1 : terms().peer_count, end_of_window(terms(), 1));
-  if (!match_) receiver_.emplace(game_.start().world(), terms(), number(), *feed_), seat_players();
-  thread_ = std::thread([this] { run(); });
-}
-
-void Node::seat_players() {
-  const Game& start = game_.start();
-  teller_.emplace(game_.scene().world.field, start.world().body_count(), terms().peer_count,
-                  number());
-  for (peer::PeerNumber to = 0; to < terms().peer_count; ++to) {
-    const PeerInfo& info = network_->peer_infos()[to];
-    for (std::uint32_t player = info.first_bat; player < info.first_bat + info.bat_count; ++player)
-      teller_->seat(to, start.bat(player)->index);
+  if (!match_) {
+    receiver_.emplace(game_.start().world(), terms(), number(), *feed_);
+    teller_.emplace(teller_of(*network_, game_.start()));
   }
+  recovery_.emplace(NodeRecovery::Parts{*network_, game_, *feed_, receiver_, teller_, *seats_,
+                                        *players_, subscription_},
+                    [this](peer::PeerNumber from, const std::vector<std::uint8_t>& bytes) {
+                      return receive(from, bytes);
+                    });
+  thread_ = std::thread([this] { run(); });
 }
 
 Node::~Node() {
@@ -128,7 +140,7 @@ void Node::run() {
     network_->leave(
         {is_interrupted != 0 ? FarewellKind::interrupted : FarewellKind::trouble, error.what()});
   }
-  has_ended_ = true;
+  outcome_.has_ended = true;
 }
 
 void Node::wait_for(const std::function<bool()>& is_there) {
@@ -161,6 +173,8 @@ void Node::play() {
     if (!match_) network_->rest_until(start_s_ + time);
   };
   options.participant = this;
+  options.notify = settings_.notify;
+  if (terms().is_replicated) options.losses = &*recovery_;
   options.takes_latecomers = true;
   if (!match_)
     network_->before_wait = [this] {
@@ -183,8 +197,10 @@ bool Node::may_begin() {
 
 void Node::before_window(peer::Session& session) {
   session_ = &session;
+  if (is_interrupted != 0 || must_end_) throw SessionError(ExitStatus::interrupted, "interrupted");
+  recovery_->follow();
   if (match_) await_match_window(session);
-  if (session.window() == 0) {
+  if (session.step() == 0) {
     session.peer().keep_changes();
     if (!match_) teller_->begin(session.peer());
     for (const auto& [player, node] : seats_->holders())
@@ -195,16 +211,17 @@ void Node::before_window(peer::Session& session) {
   if (match_) return match_->rounds().exchange(*network_, game_, *seats_, session);
   const std::optional<Cells> cells = subscription_.take();
   if (!cells) return;
-  WantedCells wanted{.step = session.step() + 1, .side = cells->side(), .runs = cells->runs()};
+  WantedCells wanted{
+      .step = feed_->count(number()) + 1, .side = cells->side(), .runs = cells->runs()};
   tell_others(*network_, NodeMessage::wanted_cells, peer::bytes_from(wanted));
 }
 
 void Node::pass_on_wishes() {
   ListOf<SeatWish> wishes{seats_->take_wishes()};
-  if (number() == 0)
-    for (const SeatWish& wish : wishes.words) seats_->hear(0, wish);
+  if (const peer::PeerNumber referee = seats_->referee(); number() == referee)
+    for (const SeatWish& wish : wishes.words) seats_->hear(referee, wish);
   else if (!wishes.words.empty())
-    say(*network_, 0, NodeMessage::seat_wishes, bytes_of(std::move(wishes)));
+    say(*network_, referee, NodeMessage::seat_wishes, bytes_of(std::move(wishes)));
   if (!match_) return;
   for (const MatchWish& wish : match_->take_wishes())
     if (number() == 0) match_->apply(wish, clock_s());
@@ -212,7 +229,7 @@ void Node::pass_on_wishes() {
 }
 
 void Node::pass_on_keys() {
-  if (session_ == nullptr) return;
+  if (session_ == nullptr || session_->is_recovering()) return;
   for (auto& [owner, keys] : players_->take(*session_, match_.has_value()))
     if (match_)
       for (const peer::Press& key : keys.words) match_->rounds().press(key);
@@ -221,7 +238,7 @@ void Node::pass_on_keys() {
 }
 
 void Node::decide_seats(std::uint64_t instant, double now_s) {
-  if (number() != 0) return;
+  if (number() != seats_->referee() || !recovery_->is_settled()) return;
   const ListOf<SeatDecision> decisions{seats_->decide(instant, now_s)};
   if (!decisions.words.empty())
     tell_others(*network_, NodeMessage::seat_decisions, bytes_of(decisions));
@@ -238,11 +255,12 @@ void Node::agree_on_seats(peer::Session& session) {
       NodeSeats::instant_of(match_ ? match_->begun() : 0, session.window());
   pass_on_wishes();
   decide_seats(instant + 1, match_ ? clock_s() : session.peer().now());
-  for (const SeatDecision& decision : seats_->due(instant)) take_over(decision, session);
+  for (const SeatDecision& decision : seats_->due(instant, session.peer().now()))
+    take_over(decision, session);
 }
 
 void Node::take_over(const SeatDecision& decision, peer::Session& session) {
-  if (decision.player == no_player) return;
+  if (decision.player == no_player || decision.change != SeatChange::enter) return;
   const std::uint32_t bat = game_.start().bat(decision.player)->index;
   if (!match_) teller_->seat(decision.node, bat);
   session.peer().players().move_seat({.bat = bat,
@@ -265,23 +283,24 @@ void Node::after_stretch(const peer::Session& session) {
     feed_->expect(session.scoring(), session.peer().end());
     return feed_->add(0, std::move(change));
   }
+  change.step = feed_->count(number()) + 1;  // without recoveries
   teller_->look(session.peer(), change, session.is_over());
   for (peer::PeerNumber to = 0; to < terms().peer_count; ++to)
     if (to != number())
       say(*network_, to, NodeMessage::change, teller_->bytes_for(to, session.peer(), change));
   feed_->expect(session.scoring(), session.peer().end());
-  receiver_->finish_window(std::move(change), session.division(), session.peer().share());
+  recovery_->finish_window(std::move(change), session);
 }
 
 /// False for what no node says.
 bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes) {
-  if (bytes.empty()) return false;
-  const auto content = std::span(bytes).first(bytes.size() - 1);
-  switch (static_cast<NodeMessage>(bytes.back())) {
+  if (const std::optional<bool> answer = recovery_->sort(from, bytes)) return *answer;
+  const auto content = content_of(bytes);
+  switch (kind_of(bytes)) {
     case NodeMessage::change: {
       peer::PartChange change;
       return !match_ && session_ != nullptr && read(content, change) &&
-             receiver_->receive(from, std::move(change));
+             recovery_->receive(from, std::move(change));
     }
     case NodeMessage::wanted_cells: {
       WantedCells wanted;
@@ -295,7 +314,7 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
     }
     case NodeMessage::seat_decisions: {
       const auto decisions = message_from<ListOf<SeatDecision>>(content);
-      return from == 0 && decisions &&
+      return from == seats_->referee() && decisions &&
              std::ranges::all_of(decisions->words,
                                  [this](const SeatDecision& each) { return receive(each); });
     }
@@ -316,21 +335,24 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
       const auto news = message_from<MatchNews>(content);
       return from == 0 && news && match_ && match_->follow(*news);
     }
+    case NodeMessage::stand_in:
+      break;  // it was sorted out
   }
   return false;
 }
 
-/// A player of this node is seated before the answer reaches it. Its keys wait until the owner of
-/// its bat has the decision, too.
+/// Where a loss may undo it a player is seated once it holds, else before the answer reaches it:
+/// its keys wait until the owner of its bat has the decision, too.
 bool Node::receive(const SeatDecision& decision) {
-  if (decision.node == number() && decision.player < game_.bat_count())
+  if (!terms().is_replicated && decision.change == SeatChange::enter && decision.node == number() &&
+      decision.player < game_.bat_count())
     players_->seat(decision.player);
   return seats_->hear(decision);
 }
 
 std::optional<ShownWindow> Node::show_next(double until, Game& game) {
   if (match_ && match_->has_shown_all()) return check(), std::nullopt;
-  const bool is_over = has_ended_;  // what all have told was added before
+  const bool is_over = outcome_.has_ended;  // what all have told was added before
   const auto stretch = feed_->take(until + rounding_s);
   if (!stretch) {
     check();
@@ -357,13 +379,13 @@ std::optional<ShownWindow> Node::show_next(double until, Game& game) {
 }
 
 bool Node::has_come(double until) const {
-  if (has_ended_ || (match_ && match_->has_shown_all())) return true;
+  if (outcome_.has_ended || (match_ && match_->has_shown_all())) return true;
   return feed_->has_come(std::min(until, terms().until) - rounding_s);
 }
 
 bool Node::has_shown_all() const {
   if (match_) return match_->has_shown_all();
-  return has_ended_ && !outcome_.failure && feed_->taken() == feed_->count(number());
+  return outcome_.has_ended && !outcome_.failure && feed_->taken() == feed_->count(number());
 }
 
 const PlayedPart& Node::finish() {
@@ -373,7 +395,7 @@ const PlayedPart& Node::finish() {
 }
 
 void Node::check() {
-  if (has_ended_ && outcome_.failure) std::rethrow_exception(outcome_.failure);
+  if (outcome_.has_ended && outcome_.failure) std::rethrow_exception(outcome_.failure);
 }
 
 }  // namespace rink::game

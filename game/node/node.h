@@ -27,6 +27,7 @@
 #include "game/node/node_traffic.h"
 #include "game/node/part_receiver.h"
 #include "game/node/part_teller.h"
+#include "game/node/recovery/node_recovery.h"
 #include "game/node/seated_players.h"
 #include "game/node/window_feed.h"
 
@@ -40,6 +41,7 @@ struct NodeSettings {
   double absence_s = 30.0;  ///< for which a player's bat is kept; node 0's holds
   std::optional<FlowTimes> hosting{};  ///< matches, one after the other; node 0's times hold. Bats
                                        ///< are not kept then, but given to whoever comes.
+  std::function<void(const std::string&)> notify{};  ///< the user, of losses; by the node's thread
 };
 
 /// A node's own thread plays; all functions are the server's thread's. What ends the session early
@@ -71,9 +73,12 @@ class Node final : public SharedPlay, private WindowParticipant {
     seats_->wish({.player = question.player.value_or(no_player), .token = question.token});
   }
   std::optional<SeatAnswer> next_seat() override { return seats_->next_answer(); }
+  void keep_seat(std::uint32_t player, std::uint64_t token) override {
+    seats_->wish({.change = SeatChange::stay, .player = player, .token = token});
+  }
   void leave_seat(std::uint32_t player, std::uint64_t token) override {
     players_->leave(player);
-    seats_->wish({.is_leaving = true, .player = player, .token = token});
+    seats_->wish({.change = SeatChange::leave, .player = player, .token = token});
   }
   void press(std::uint32_t player, Key key, bool is_down, double time) override {
     players_->press(player, key, is_down, match_ ? time : 0.0);
@@ -93,7 +98,9 @@ class Node final : public SharedPlay, private WindowParticipant {
   const TellingCounters& telling() const { return teller_->counters(); }
 
  private:
+  /// All but the flag is read once that is true.
   struct Outcome {
+    std::atomic<bool> has_ended = false;
     std::exception_ptr failure;
     PlayedPart part;
   };
@@ -113,7 +120,6 @@ class Node final : public SharedPlay, private WindowParticipant {
   static constexpr double start_lead_s = 0.2;
 
   double clock_s() const { return now_s_() - start_s_; }
-  void seat_players();
   void run();
   void wait_for(const std::function<bool()>& is_there);
   void share();
@@ -144,10 +150,11 @@ class Node final : public SharedPlay, private WindowParticipant {
   NodeSubscription subscription_;
   NodeTraffic traffic_;
   std::optional<NodeMatch> match_;
+  std::optional<NodeRecovery> recovery_;
   peer::Session* session_ = nullptr;  ///< while one is played
-  std::atomic<bool> is_ready_ = false, has_begun_ = false, must_end_ = false, has_ended_ = false;
+  std::atomic<bool> is_ready_ = false, has_begun_ = false, must_end_ = false;
   std::atomic<double> start_s_ = 0.0;  ///< on the clock; 0: not agreed on yet
-  Outcome outcome_;                    ///< read once `has_ended_`
+  Outcome outcome_;
   std::thread thread_;
 };
 

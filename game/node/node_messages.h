@@ -1,7 +1,9 @@
-// What nodes say to each other beside their session: what a message is, is its last byte.
+// What nodes say to each other beside their session. The last byte says what a message is, the two
+// before it how often its sender had gone back after a loss.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -18,8 +20,22 @@ enum class NodeMessage : std::uint8_t {
   seat_decisions,
   match_wish,
   match_news,
-  keys
+  keys,
+  stand_in
 };
+
+inline constexpr std::size_t node_message_tail = 3;
+/// Of a message that has a tail.
+inline NodeMessage kind_of(std::span<const std::uint8_t> bytes) {
+  return static_cast<NodeMessage>(bytes.back());
+}
+inline std::uint16_t recoveries_in(std::span<const std::uint8_t> bytes) {
+  const std::size_t at = bytes.size() - node_message_tail;
+  return static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8);
+}
+inline std::span<const std::uint8_t> content_of(std::span<const std::uint8_t> bytes) {
+  return bytes.first(bytes.size() - node_message_tail);
+}
 
 /// What is said of bats or keys at once, in one message: a flood of messages is taken for a lie.
 template <class Word>
@@ -35,10 +51,11 @@ bool exchange(Stream& stream, ListOf<Word>& list) {
 
 inline void say(SessionNetwork& network, peer::PeerNumber to, NodeMessage kind,
                 std::span<const std::uint8_t> content) {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(content.size() + 1);
-  bytes.assign(content.begin(), content.end());
-  bytes.push_back(static_cast<std::uint8_t>(kind));
+  std::vector<std::uint8_t> bytes(content.size() + node_message_tail);
+  std::ranges::copy(content, bytes.begin());
+  bytes[content.size()] = static_cast<std::uint8_t>(network.recoveries & 0xff);
+  bytes[content.size() + 1] = static_cast<std::uint8_t>(network.recoveries >> 8);
+  bytes.back() = static_cast<std::uint8_t>(kind);
   network.send_aside(to, std::move(bytes));
 }
 

@@ -26,7 +26,13 @@ class NodeSubscription {
   /// The thread that shares the simulation: the cells, if they are others than were taken last.
   std::optional<Cells> take() {
     const std::lock_guard lock(mutex_);
+    if (changed_) taken_ = changed_;
     return std::exchange(changed_, std::nullopt);
+  }
+  /// The same thread: the others have forgotten what was taken.
+  void take_again() {
+    const std::lock_guard lock(mutex_);
+    if (!changed_) changed_ = taken_;
   }
 
  private:
@@ -39,6 +45,7 @@ class NodeSubscription {
   double side_ = 0.0;  ///< of cells around regions [m]; 0: none yet
   std::mutex mutex_;
   std::optional<Cells> changed_;  ///< guarded by `mutex_`
+  std::optional<Cells> taken_;    ///< last
 };
 
 }  // namespace rink::game

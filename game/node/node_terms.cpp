@@ -1,4 +1,4 @@
-// Windows of a tick, without copies.
+// Windows of a tick; matches are played without copies.
 #include "game/node/node_terms.h"
 
 #include <algorithm>
@@ -15,7 +15,6 @@ Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
               .until = until,
               .window = tick_s,
               .balance_windows = balance_windows};
-  terms.is_replicated = false;
   terms.interest.scheme = nodes_scheme;
   assert(terms.fit());
   return terms;
@@ -25,6 +24,7 @@ Terms terms_of_matches(std::uint32_t node_count, double tick_s, std::uint32_t ba
   constexpr double match_s_max = 1e6;  // none is so long
   const double window = std::max(1.0, std::round(tick_s / tick_grid)) * tick_grid;
   Terms terms = terms_of_nodes(node_count, match_s_max, window, balance_windows);
+  terms.is_replicated = false;
   terms.interest.scheme = matches_scheme;
   return terms;
 }

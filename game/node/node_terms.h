@@ -10,8 +10,8 @@ namespace rink::game {
 /// In place of a scheme of peers, so that the two are not taken for each other.
 inline constexpr const char *nodes_scheme = "nodes", *matches_scheme = "matches";
 
-/// The terms of `node_count` nodes that play `until` [s] in windows of a tick each [s]; their zones
-/// may shift every `balance_windows`, or never if that is 0.
+/// The terms of `node_count` nodes, with standby copies, that play `until` [s] in windows of a tick
+/// each [s]; their zones may shift every `balance_windows`, or never if that is 0.
 Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
                      std::uint32_t balance_windows = balance_windows_default);
 /// Of nodes that host matches. A window is the tick rounded to the grid of matches, so that stamps

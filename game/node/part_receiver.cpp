@@ -88,8 +88,26 @@ void PartReceiver::finish_window(peer::PartChange own, const peer::Division& div
 void PartReceiver::pass(peer::PeerNumber from, peer::PartChange change) {
   assert(change.step == received_[own_]);
   if (const std::string fault = fault_of(from, change); !fault.empty())
-    throw peer::ProtocolError("peer " + std::to_string(from) + fault);
+    throw FaultyPart(from, fault);
   feed_.add(from, std::move(change));
+}
+
+void PartReceiver::rewind(std::uint64_t window, const peer::Division& division) {
+  assert(window <= received_[own_]);
+  for (std::uint64_t& received : received_) received = std::min(received, window);
+  for (std::optional<peer::PartChange>& early : early_) early.reset();
+  division_ = division;
+}
+
+/// Its zones are others' by now.
+bool PartReceiver::stand_in(peer::PeerNumber from, peer::PartChange change) {
+  if (from >= received_.size() || from == own_) return false;
+  if (received_[from] == change.step) return true;
+  if (!change.gone.empty() || change.step != received_[own_] || !is_sound(from, change))
+    return false;
+  ++received_[from];
+  feed_.add(from, std::move(change));
+  return true;
 }
 
 /// What cannot be of bodies that exist; empty if there is nothing.

@@ -9,12 +9,24 @@
 #include "game/net/peer/network/greetings.h"
 #include "game/node/window_feed.h"
 #include "game/peer/division.h"
+#include "game/peer/protocol.h"
 #include "game/peer/session/part_change.h"
 #include "game/peer/validation.h"
 #include "game/peer/window/share.h"
 #include "game/physics/world.h"
 
 namespace rink::game {
+
+/// Another node tells of a body that is not in its zones.
+class FaultyPart : public peer::ProtocolError {
+ public:
+  FaultyPart(peer::PeerNumber from, const std::string& fault)
+      : ProtocolError("peer " + std::to_string(from) + fault), from_(from) {}
+  peer::PeerNumber from() const { return from_; }
+
+ private:
+  peer::PeerNumber from_;
+};
 
 /// Used by the thread that shares the simulation alone.
 class PartReceiver {
@@ -24,13 +36,19 @@ class PartReceiver {
                WindowFeed& feed);
 
   /// False for what no node says: a window that is not the next one, or that this node's messages
-  /// have not let it play; or a body or key that cannot be. Throws peer::ProtocolError, which names
-  /// the sender, for a body that is not in its zones.
+  /// have not let it play; or a body or key that cannot be. Throws FaultyPart for a body that is
+  /// not in its zones.
   bool receive(peer::PeerNumber from, peer::PartChange change);
   /// This node has played a window, after which these zones hold, and its own part is `share`,
   /// which must outlive it.
   void finish_window(peer::PartChange own, const peer::Division& division,
                      const peer::Share& share);
+
+  /// All go back to the end of that window, after which these zones hold.
+  void rewind(std::uint64_t window, const peer::Division& division);
+  /// Then: what another says that the lost node `from` had, unless that had told of this window
+  /// itself. False for what cannot be.
+  bool stand_in(peer::PeerNumber from, peer::PartChange change);
 
  private:
   bool is_sound(peer::PeerNumber from, const peer::PartChange& change) const;

@@ -47,6 +47,17 @@ void PartTeller::begin(const peer::Peer& peer) {
     for (const Own& own : own_) listener.is_told[own.body] = true;
 }
 
+void PartTeller::begin_again(const peer::Peer& peer, std::uint64_t window) {
+  step_ = window, is_last_ = false;
+  own_.clear(), was_own_.assign(was_own_.size(), false);
+  for (Listener& listener : listeners_) {
+    listener.cells = Cells::all_of(field_);
+    listener.coming.reset();
+    listener.is_told.assign(listener.is_told.size(), false);
+  }
+  take_own(peer, {});
+}
+
 void PartTeller::look(const peer::Peer& peer, const peer::PartChange& change, bool is_last) {
   assert(change.step == step_ + 1 && !is_last_);
   step_ = change.step, is_last_ = is_last;

@@ -39,6 +39,9 @@ class PartTeller {
 
   /// Before the first window, when all know the bodies of the start.
   void begin(const peer::Peer& peer);
+  /// All go back to the end of that window: all that this node has is told anew with the next one,
+  /// to all.
+  void begin_again(const peer::Peer& peer, std::uint64_t window);
   /// `change` is that of the own part in the window that leads to its step; with the last one all
   /// are told of everything.
   void look(const peer::Peer& peer, const peer::PartChange& change, bool is_last);

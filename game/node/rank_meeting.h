@@ -12,7 +12,11 @@ namespace rink::game {
 class RankMeeting final : public Meeting {
  public:
   /// `ranks` must outlive it. The terms, but for the number of nodes, must be those of all ranks.
-  RankMeeting(rti::Ranks& ranks, const Terms& terms) : ranks_(ranks), terms_(terms) {}
+  /// MPI ends all of them if one is lost, so none keeps copies of others.
+  RankMeeting(rti::Ranks& ranks, const Terms& terms) : ranks_(ranks), terms_(terms) {
+    terms_.is_replicated = false;
+  }
+  bool survives_losses() const override { return false; }
 
   std::unique_ptr<SessionNetwork> enter(PeerNetworkSettings self, double (*now_s)()) override {
     if (ranks_.count() > peers_max)

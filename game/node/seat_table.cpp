@@ -21,21 +21,34 @@ void SeatTable::assign(peer::PeerNumber node, std::uint32_t first, std::uint32_t
   }
 }
 
-std::optional<SeatDecision> SeatTable::decide(peer::PeerNumber node, const SeatWish& wish,
-                                              double now_s) {
-  if (wish.is_leaving) {
-    if (wish.player >= seats_.size()) return std::nullopt;
-    Seat& seat = seats_[wish.player];
-    if (seat.is_taken && seat.node == node)
-      seat = {.node = node,
-              .token = wish.token,
-              .leased_until = wish.token == SharedPlay::nobody ? now_s : now_s + lease_s_};
-    return std::nullopt;
-  }
-  SeatDecision decision{.node = node, .player = choice(node, wish, now_s), .token = wish.token};
-  if (decision.player != no_player)
-    seats_[decision.player] = {.node = node, .is_taken = true, .token = wish.token};
+SeatDecision SeatTable::decide(peer::PeerNumber node, const SeatWish& wish, double now_s) {
+  SeatDecision decision{
+      .change = wish.change, .node = node, .player = no_player, .token = wish.token};
+  if (wish.change == SeatChange::enter) decision.player = choice(node, wish, now_s);
+  else if (wish.player < seats_.size() && seats_[wish.player].is_taken &&
+           seats_[wish.player].node == node)
+    decision.player = wish.player;
+  apply(decision, now_s);
   return decision;
+}
+
+void SeatTable::apply(const SeatDecision& decision, double now_s) {
+  if (decision.player >= seats_.size()) return;
+  Seat& seat = seats_[decision.player];
+  const bool is_left = decision.change == SeatChange::leave;
+  seat = {.node = decision.node, .is_taken = !is_left, .token = decision.token};
+  if (is_left) seat.leased_until = decision.token == SharedPlay::nobody ? now_s : now_s + lease_s_;
+}
+
+std::vector<SeatTable::Seated> SeatTable::inherit(peer::PeerNumber from, peer::PeerNumber to) {
+  std::vector<Seated> inherited;
+  for (std::uint32_t player = 0; player < seats_.size(); ++player) {
+    Seat& seat = seats_[player];
+    if (!seat.is_taken || seat.node != from) continue;
+    seat.node = to;
+    inherited.push_back({player, seat.token});
+  }
+  return inherited;
 }
 
 std::uint32_t SeatTable::choice(peer::PeerNumber node, const SeatWish& wish, double now_s) const {

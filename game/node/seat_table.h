@@ -16,28 +16,38 @@ namespace rink::game {
 /// Stands for no bat, or any.
 inline constexpr std::uint32_t no_player = std::numeric_limits<std::uint32_t>::max();
 
-/// A node's player wants a bat, or leaves the one that it has.
+enum class SeatChange : std::uint8_t {
+  enter,  ///< a player gets a bat
+  stay,   ///< it has had one since the start, and says its token
+  leave
+};
+
+/// What a node's player wants.
 struct SeatWish {
-  bool is_leaving = false;
-  std::uint32_t player = no_player;          ///< the bat that it leaves, or would like best
+  SeatChange change = SeatChange::enter;
+  std::uint32_t player = no_player;          ///< the bat that it has, or would like best
   std::uint64_t token = SharedPlay::nobody;  ///< the player's own, by which it gets its bat back
 };
 
-/// The player of `token` at `node` gets the bat `player`, or none.
+/// The answer: the player of `token` at `node` gets the bat `player`, or leaves it; or nothing is
+/// changed, which is said too.
 struct SeatDecision {
+  SeatChange change = SeatChange::enter;
   std::uint64_t window = 0;  ///< after which it holds
   std::uint32_t node = 0, player = no_player;
   std::uint64_t token = 0;
+  bool answers(const SeatWish& wish) const { return change == wish.change && token == wish.token; }
 };
 
 template <class Stream>
 bool exchange(Stream& stream, SeatWish& wish) {
-  return stream.truth(wish.is_leaving) && stream.numbers(wish.player, wish.token);
+  return stream.choice(wish.change, SeatChange::leave) && stream.numbers(wish.player, wish.token);
 }
 
 template <class Stream>
 bool exchange(Stream& stream, SeatDecision& decision) {
-  return stream.numbers(decision.window, decision.node, decision.player, decision.token);
+  return stream.choice(decision.change, SeatChange::leave) &&
+         stream.numbers(decision.window, decision.node, decision.player, decision.token);
 }
 
 /// All bats of the scene. A value of pure rules: the same wishes at the same times have the same
@@ -54,9 +64,18 @@ class SeatTable {
   }
   /// From the start the bats from `first` on have players at `node`; they must be free (asserted).
   void assign(peer::PeerNumber node, std::uint32_t first, std::uint32_t count);
-  /// Answers a wish of `node` at `now_s` [s] with a decision about a bat, whose window is still to
-  /// be set. A player that leaves gets no answer, and changes nothing if it does not have the bat.
-  std::optional<SeatDecision> decide(peer::PeerNumber node, const SeatWish& wish, double now_s);
+  /// Answers a wish of `node` at `now_s` [s], and applies the answer, whose window is still to be
+  /// set. Who does not have the bat changes nothing.
+  SeatDecision decide(peer::PeerNumber node, const SeatWish& wish, double now_s);
+  /// What another table of the same bats has decided.
+  void apply(const SeatDecision& decision, double now_s);
+  /// A player that has a bat.
+  struct Seated {
+    std::uint32_t player = 0;
+    std::uint64_t token = SharedPlay::nobody;
+  };
+  /// `to` has all players of the node `from`, until it says that they have left. Returns these.
+  std::vector<Seated> inherit(peer::PeerNumber from, peer::PeerNumber to);
 
  private:
   struct Seat {

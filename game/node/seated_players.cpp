@@ -73,9 +73,8 @@ void SeatedPlayers::leave(std::uint32_t player) {
   left_.insert(player);
 }
 
-std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Session& session,
-                                                                    bool begins_together) {
-  std::map<peer::PeerNumber, ListOf<peer::Press>> taken;
+SeatedPlayers::Taken SeatedPlayers::take(peer::Session& session, bool begins_together) {
+  Taken taken;
   if (session.window() == 0)
     for (Player& player : players_)
       player.seen.owner = session.division().owner_of(player.seen.position);
@@ -84,6 +83,9 @@ std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Sessio
     const std::lock_guard lock(mutex_);
     waiting = std::exchange(waiting_, {});
   }
+  for (Player& player : players_)
+    if (player.seen.time == session.peer().now())
+      send_waiting(player, {session, begins_together}, taken);
   std::vector<Pressed> kept;
   for (const Pressed& pressed : waiting) {
     if (!is_seated(pressed.player)) continue;
@@ -99,12 +101,8 @@ std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Sessio
                             .thrust = player.pressed.thrust(),
                             .input = input_of(event),
                             .time = pressed.time};
-    if (session.window() == 0 && !begins_together) {
-      session.press(player.seen, press);  // its owner may not have begun
-    } else {
-      session.press(press);
-      taken[player.seen.owner].words.push_back(press);
-    }
+    if (keeps_unfelt_) player.unfelt.push_back(press), ++player.sent;
+    send(player, press, {session, begins_together}, taken);
   }
   if (kept.empty()) return taken;
   const std::lock_guard lock(mutex_);
@@ -112,14 +110,63 @@ std::map<peer::PeerNumber, ListOf<peer::Press>> SeatedPlayers::take(peer::Sessio
   return taken;
 }
 
+/// Until the first window was played the owner may not have begun.
+void SeatedPlayers::send(Player& player, const peer::Press& press, const Way& way, Taken& taken) {
+  if (way.session.window() == 0 && !way.begins_together)
+    way.session.peer().players().press(player.seen.owner, press);
+  else taken[player.seen.owner].words.push_back(press);
+}
+
+void SeatedPlayers::send_waiting(Player& player, const Way& way, Taken& taken) {
+  for (; player.sent < player.unfelt.size(); ++player.sent)
+    send(player, player.unfelt[player.sent], way, taken);
+}
+
+std::vector<SeatedPlayers::Player>::iterator SeatedPlayers::of_bat(std::uint32_t bat) {
+  const auto player =
+      std::ranges::lower_bound(players_, bat, {}, [](const Player& each) { return each.seen.bat; });
+  return player != players_.end() && player->seen.bat == bat ? player : players_.end();
+}
+
 void SeatedPlayers::look(const peer::Session& session) {
-  for (const peer::Observation& seen : session.peer().observations()) {
-    const auto player = std::ranges::lower_bound(players_, seen.bat, {},
-                                                 [](const Player& each) { return each.seen.bat; });
-    if (player != players_.end() && player->seen.bat == seen.bat &&
-        seen.time == session.peer().now())
+  for (const peer::Observation& seen : session.peer().observations())
+    if (const auto player = of_bat(seen.bat);
+        player != players_.end() && seen.time == session.peer().now())
       player->seen = seen;
+}
+
+/// The bat's owner feels a player's keys in their order. The last ones of the player before may
+/// come in between.
+void SeatedPlayers::note_felt(const peer::Key& key) {
+  const auto player = of_bat(key.bat);
+  if (player == players_.end() || player->unfelt.empty()) return;
+  const peer::Press& first = player->unfelt.front();
+  if (first.input != key.input || first.thrust != key.thrust) return;
+  player->unfelt.pop_front();
+  player->sent -= player->sent > 0;
+}
+
+/// Who owns a bat now its player learns with the next window.
+void SeatedPlayers::send_again(const peer::Session& session) {
+  for (Player& player : players_) {
+    player.sent = 0;
+    player.seen.time = session.window() == 0 ? session.peer().now() : -1.0;
   }
+}
+
+void SeatedPlayers::release(std::uint32_t player, const KeysHeld& held) {
+  unseat(player);
+  seat(player);
+  place_of(player)->pressed = BatController(game_.scene().bodies.bats[player].thrust, held, 0);
+  for (const Key key : all_keys)
+    if (held.is_down(key)) press(player, key, false);
+}
+
+bool SeatedPlayers::has_unfelt(std::uint32_t player) {
+  if (!is_seated(player)) return false;
+  const std::lock_guard lock(mutex_);
+  return !place_of(player)->unfelt.empty() ||
+         std::ranges::find(waiting_, player, &Pressed::player) != waiting_.end();
 }
 
 }  // namespace rink::game

@@ -1,7 +1,9 @@
 // The keys of a node's players on their way to the owners of their bats.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <set>
@@ -39,16 +41,30 @@ class SeatedPlayers {
   /// What is to be sent to the bats' owners now, by owner, ahead of the next window's claims; until
   /// the first window was played it goes with these, but where owners begin it together. Keys wait
   /// while a window is played.
-  std::map<peer::PeerNumber, ListOf<peer::Press>> take(peer::Session& session,
-                                                       bool begins_together);
+  using Taken = std::map<peer::PeerNumber, ListOf<peer::Press>>;
+  Taken take(peer::Session& session, bool begins_together);
   /// After a window: where the bats are now.
   void look(const peer::Session& session);
+
+  /// From now on keys are kept until they are felt, for a loss may undo that.
+  void keep_unfelt() { keeps_unfelt_ = true; }
+  /// The key was felt, which nothing can undo, or will be. Of others than its own it knows nothing.
+  void note_felt(const peer::Key& key);
+  /// Between windows: the others have forgotten all keys that were not felt. These are sent again,
+  /// ahead of newer ones.
+  void send_again(const peer::Session& session);
+  /// The player, who is away, holds these keys: they are released.
+  void release(std::uint32_t player, const KeysHeld& held);
+  /// True if a key of the player waits, or was sent and is not known to be felt.
+  bool has_unfelt(std::uint32_t player);
 
  private:
   struct Player {
     std::uint32_t number;
     BatController pressed;
     peer::Observation seen;  ///< the newest; its time is before the start until there is one
+    std::deque<peer::Press> unfelt{};  ///< in order
+    std::size_t sent = 0;              ///< of these
   };
   struct Pressed {
     std::uint32_t player;
@@ -57,10 +73,17 @@ class SeatedPlayers {
     double time;
   };
   Player at_start(std::uint32_t player) const;
-  std::vector<Player>::iterator place_of(std::uint32_t player);
+  std::vector<Player>::iterator of_bat(std::uint32_t bat);
+  struct Way {
+    peer::Session& session;
+    bool begins_together;
+  };
+  static void send(Player& player, const peer::Press& press, const Way& way, Taken& taken);
+  static void send_waiting(Player& player, const Way& way, Taken& taken);
 
   const SharedGame& game_;
   std::vector<Player> players_;  ///< by number, and so by bat
+  bool keeps_unfelt_ = false;
   std::mutex mutex_;
   std::vector<Pressed> waiting_;  ///< guarded by `mutex_`, as are these:
   std::set<std::uint32_t> left_;

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -22,7 +23,11 @@ class WindowFeed {
  public:
   /// The first stretch ends at `end` [s].
   WindowFeed(peer::PeerNumber node_count, double end)
-      : changes_(node_count), told_(node_count), added_(node_count), ends_{end} {
+      : changes_(node_count),
+        told_(node_count),
+        added_(node_count),
+        is_closed_(node_count),
+        ends_{end} {
     assert(node_count > 0);
   }
 
@@ -31,6 +36,7 @@ class WindowFeed {
   void begin_session(double end) {
     assert(std::ranges::all_of(added_, [this](std::uint64_t count) { return count == added_[0]; }));
     ends_ = {end};
+    felt_.clear(), taken_felt_ = 0;
     std::ranges::fill(added_, 0);
     const std::lock_guard lock(mutex_);
     std::ranges::fill(told_, 0.0);
@@ -45,7 +51,10 @@ class WindowFeed {
   /// The change of `node` in the stretch after its last one.
   void add(peer::PeerNumber node, peer::PartChange change) {
     assert(node < added_.size() && change.time == end_of(added_[node] + 1));
-    ++added_[node];
+    const std::uint64_t stretch = ++added_[node];
+    if (felt_.size() < stretch - taken_felt_) felt_.resize(stretch - taken_felt_);
+    std::vector<peer::Key>& felt = felt_[stretch - taken_felt_ - 1];
+    felt.insert(felt.end(), change.log.begin(), change.log.end());
     const std::lock_guard lock(mutex_);
     told_[node] = change.time;
     changes_[node].push_back(std::move(change));
@@ -58,6 +67,50 @@ class WindowFeed {
     scores_.push_back(std::move(score));
   }
 
+  /// The keys that were felt in stretches of which all have told, each once, in order.
+  std::vector<peer::Key> take_felt() {
+    std::vector<peer::Key> keys;
+    for (; !felt_.empty() && is_whole(taken_felt_ + 1); ++taken_felt_, felt_.pop_front())
+      keys.insert(keys.end(), felt_.front().begin(), felt_.front().end());
+    return keys;
+  }
+  /// True if all have told of that stretch, so that nobody can go back behind its end.
+  bool is_whole(std::uint64_t stretch) const {
+    for (std::size_t node = 0; node < added_.size(); ++node)
+      if (!is_closed_[node] && added_[node] < stretch) return false;
+    return true;
+  }
+
+  /// Of the stretch that ends then [s], which this node has played; 0 at the start.
+  std::uint64_t stretch_until(double time) const {
+    const auto end = std::ranges::find(ends_, time);
+    return end == ends_.end() ? 0 : static_cast<std::uint64_t>(end - ends_.begin()) + 1;
+  }
+  /// All go back to the end of that stretch. What came of later ones is forgotten, of which none
+  /// was whole, and so none was taken (asserted).
+  void rewind(std::uint64_t stretch) {
+    assert(stretch < ends_.size() && taken_felt_ <= stretch);
+    const std::lock_guard lock(mutex_);
+    const double time = stretch == 0 ? 0.0 : ends_[stretch - 1];
+    for (std::size_t node = 0; node < added_.size(); ++node)
+      for (; added_[node] > stretch; --added_[node]) {
+        assert(!changes_[node].empty());
+        changes_[node].pop_back();
+      }
+    for (std::size_t node = 0; node < told_.size(); ++node)
+      if (!is_closed_[node]) told_[node] = std::min(told_[node], time);
+    while (ends_.size() > stretch + 1) ends_.pop_back(), scores_.pop_back();
+    if (felt_.size() > stretch - taken_felt_) felt_.resize(stretch - taken_felt_);
+  }
+  /// Nothing more comes of this node, whose last stretch is the last that this one has played.
+  void close(peer::PeerNumber node) {
+    is_closed_[node] = true;
+    const std::lock_guard lock(mutex_);
+    told_[node] = std::numeric_limits<double>::infinity();
+  }
+
+  bool is_closed(peer::PeerNumber node) const { return is_closed_[node]; }
+
   /// True if all have told of what they played until then [s].
   bool has_come(double until) const {
     const std::lock_guard lock(mutex_);
@@ -65,18 +118,23 @@ class WindowFeed {
   }
 
   struct Stretch {
-    std::vector<peer::PartChange> changes;  ///< by node
+    std::vector<peer::PartChange> changes;  ///< by node, without those that were closed before
     peer::Scoring score;                    ///< after it
   };
   /// The earliest stretch, if it is whole and ends by `until` [s].
   std::optional<Stretch> take(double until) {
     const std::lock_guard lock(mutex_);
-    for (const std::deque<peer::PartChange>& of_node : changes_)
-      if (of_node.empty() || of_node.front().time > until) return std::nullopt;
+    for (std::size_t node = 0; node < changes_.size(); ++node) {
+      const std::deque<peer::PartChange>& of_node = changes_[node];
+      const bool is_over =
+          of_node.empty() && told_[node] == std::numeric_limits<double>::infinity();
+      if (!is_over && (of_node.empty() || of_node.front().time > until)) return std::nullopt;
+    }
     assert(!scores_.empty());
     Stretch stretch{.changes = {}, .score = std::move(scores_.front())};
     scores_.pop_front();
     for (std::deque<peer::PartChange>& of_node : changes_) {
+      if (of_node.empty()) continue;
       stretch.changes.push_back(std::move(of_node.front()));
       of_node.pop_front();
     }
@@ -90,9 +148,13 @@ class WindowFeed {
   mutable std::mutex mutex_;
   std::vector<std::deque<peer::PartChange>> changes_;  ///< by node, the earliest first
   std::deque<peer::Scoring> scores_;  ///< the earliest first; `mutex_` guards it and `changes_`
-  std::vector<double> told_;          ///< by node: until when [s]; guarded by `mutex_`
-  std::vector<std::uint64_t> added_;  ///< by node
-  std::vector<double> ends_;          ///< by stretch
+  std::vector<double> told_;  ///< by node: until when [s], infinite once it is closed; guarded by
+                              ///< `mutex_`
+  std::vector<std::uint64_t> added_;         ///< by node
+  std::vector<bool> is_closed_;              ///< by node
+  std::deque<std::vector<peer::Key>> felt_;  ///< by stretch, after those that were taken
+  std::uint64_t taken_felt_ = 0;             ///< stretches
+  std::vector<double> ends_;                 ///< by stretch
   std::uint64_t taken_ = 0;
 };
 

@@ -2,8 +2,7 @@
 // comes, goes, scores, rests or is hit by somebody unknown.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "game/replication/trajectory.h"
 #include "tests/exact/exact_rink.h"
 
 namespace rink::game::test {
@@ -146,13 +145,67 @@ TEST(Exact, AClientThatLooksAheadTakesItBackWhenNewsCome) {
   EXPECT_EQ(counted(rink).wrong_hashes, 0u);
 }
 
+/// All that the client has in scope is within the error of trajectories; answers how many.
+std::size_t count_followed(LockstepRink& rink, Client& client) {
+  std::size_t count = 0;
+  for (const Entity& entity : rink.server().game().entities()) {
+    const EntityReplica* const shown =
+        client.replicas().find(rink.server().publisher().object(entity.id));
+    if (shown == nullptr || !shown->in_scope) continue;
+    const double now = rink.server().game().now();
+    EXPECT_LE((shown->position_at(now) - rink.server().game().position(entity.id)).norm(),
+              trajectory_error_max)
+        << "entity " << entity.id.index << " at t = " << now;
+    ++count;
+  }
+  return count;
+}
+
 TEST(Exact, WhoDoesNotComputeIsSentTrajectoriesBesideOthersWhoDo) {
   const Scene scene = small_crowd();
-  LockstepRink rink(scene, settings_for(scene, 4, 4.0, 1.0));
+  LockstepSettings settings = settings_for(scene, 4, 4.0, 0.3);
+  settings.told = 2;
+  LockstepRink rink(scene, settings);
+  rink.start();
+  Compared compared;
+  for (int tick = 0; tick < 60 && !HasFatalFailure(); ++tick) {
+    follow(rink, 1, "mixed", compared);
+    EXPECT_GT(count_followed(rink, rink.client(0)), 10u);
+  }
+  EXPECT_EQ(rink.client(0).computed(), nullptr);
+  EXPECT_NE(rink.client(2).computed(), nullptr);
+  EXPECT_EQ(rink.exact_feed()->counters().starts, 4u);
+}
+
+TEST(Exact, AMessageThatCannotBeReadIsMendedAndAfterThreeTheServerTellsAll) {
+  const Scene scene = small_crowd();
+  LockstepRink rink(scene, settings_for(scene, 4, 6.0, 0.3));
   rink.start();
   rink.run(1.0);
-  EXPECT_NE(rink.client(0).computed(), nullptr);
-  EXPECT_EQ(rink.exact_feed()->counters().starts, 6u);
+  // Right after a hash, so that no right one comes in between.
+  const std::uint64_t hashes = rink.client(0).computed()->exact().counters().hashes;
+  while (rink.client(0).computed()->exact().counters().hashes == hashes) rink.tick();
+  const std::vector<std::byte> garbage(40, std::byte{0xff});
+  const rti::FederateHandle first = rink.client(0).ambassador().federate();
+  for (std::uint32_t failure = 1; failure <= ExactReplicas::wrong_in_row_max; ++failure) {
+    ASSERT_TRUE(rink.client(0).computed()->exact().is_exact()) << failure;
+    rink.execution().send_host_message(first, garbage);
+    rink.settle();
+    EXPECT_FALSE(rink.client(0).computed()->exact().is_exact()) << failure;
+    if (failure == ExactReplicas::wrong_in_row_max) break;
+    Compared compared;
+    rink.tick();
+    compare(rink, rink.client(0), "mended", compared);
+    EXPECT_GT(compared.bodies, 10u);
+  }
+  for (int tick = 0; tick < 30; ++tick) {
+    rink.tick();
+    if (tick > 1) EXPECT_GT(count_followed(rink, rink.client(0)), 10u);
+    Compared compared;
+    compare(rink, rink.client(1), "another", compared);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_EQ(rink.exact_feed()->counters().starts, 6u + 2u);
 }
 
 }  // namespace

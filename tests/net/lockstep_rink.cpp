@@ -49,7 +49,8 @@ Client& LockstepRink::add_client(const std::string& name, bool only_watches) {
                                 .view_margin = settings_.view_margin,
                                 .declares_regions = settings_.declares_regions,
                                 .extrapolates = settings_.extrapolates,
-                                .only_watches = only_watches};
+                                .only_watches = only_watches,
+                                .computes = clients_.size() >= settings_.told};
   player->client = std::make_unique<Client>(fom_, model_, settings);
   player->link = std::make_unique<rti::FederateLink>(player->client->ambassador(), player->endpoint,
                                                      player->endpoint.connect("rti"));

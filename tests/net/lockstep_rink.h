@@ -33,6 +33,7 @@ struct LockstepSettings {
   double view_fraction = 0.2;
   double view_margin = 0.0;
   bool extrapolates = true, declares_regions = true;
+  std::uint32_t told = 0;  ///< the first so many clients do not compute, whatever the policy
   ServerSettings server = {};
 };
 

@@ -11,14 +11,15 @@ constexpr std::uint64_t ann = 11, ben = 12;
 
 std::uint32_t given(SeatTable& table, peer::PeerNumber node, const SeatWish& wish,
                     double now_s = 0.0) {
-  const std::optional<SeatDecision> decision = table.decide(node, wish, now_s);
-  EXPECT_TRUE(decision && decision->node == node && decision->token == wish.token);
-  return decision ? decision->player : no_player;
+  const SeatDecision decision = table.decide(node, wish, now_s);
+  EXPECT_TRUE(decision.answers(wish) && decision.node == node);
+  return decision.player;
 }
 
 void leave(SeatTable& table, peer::PeerNumber node, std::uint32_t player, std::uint64_t token,
            double now_s) {
-  EXPECT_FALSE(table.decide(node, {.is_leaving = true, .player = player, .token = token}, now_s));
+  const SeatWish wish{.change = SeatChange::leave, .player = player, .token = token};
+  EXPECT_TRUE(table.decide(node, wish, now_s).answers(wish));
 }
 
 TEST(SeatTable, GivesABatThatTwoWantToTheFirstAndAnotherToTheSecond) {

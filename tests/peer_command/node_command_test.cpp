@@ -5,62 +5,10 @@
 #include <thread>
 
 #include "game/control/replay.h"
-#include "tests/peer_command/peer_processes.h"
+#include "tests/peer_command/node_processes.h"
 
 namespace rink::game {
 namespace {
-
-class NodeCommand : public PeerCommand {
- protected:
-  /// Starts a node, and waits until it has printed its place. It seats 4 players by default.
-  Process& serve(const std::string& name, Words arguments, const std::string& scene_file = {}) {
-    add(arguments, "--scene", scene_file.empty() ? scene() : scene_file);
-    add(arguments, "--clients", "4");
-    add(arguments, "--port", "0");
-    add(arguments, "--record", record_of(name));
-    Process& node = *peers_.emplace_back(
-        std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", arguments));
-    until([&] { return place_among_nodes(node) || node.ending(); });
-    return node;
-  }
-  Process& first(Words further = {}) {
-    add(further, "--nodes", "2");
-    add(further, "--node-listen", "127.0.0.1:0");
-    add(further, "--duration", "2");
-    return serve("first", further);
-  }
-  Process& join(const Process& other, Words further = {}) {
-    add(further, "--join", place_among_nodes(other).value_or("nowhere:1"));
-    return serve("second", further);
-  }
-  /// Unless the flag is given.
-  static void add(Words& arguments, const std::string& flag, const std::string& value) {
-    if (std::ranges::find(arguments, flag) == arguments.end())
-      arguments.insert(arguments.end(), {flag, value});
-  }
-  /// Bots of `node`, once it listens to clients; 4 by default.
-  Process& bots(const Process& node, Words further = {}) {
-    until([&] { return node.line_after("listening on ") || node.ending(); });
-    add(further, "--connect", place_of(node));
-    add(further, "--count", "4");
-    add(further, "--scene", scene());
-    add(further, "--players", "waypoint");
-    add(further, "--duration", "2");
-    add(further, "--view", "0.2");
-    return *peers_.emplace_back(
-        std::make_unique<Process>(test::binary_folder() + "/bin/rink-bots", further));
-  }
-  /// One that calls itself after a bat and plays until a simulated time.
-  Process& bot(const Process& node, const std::string& number, const std::string& until) {
-    return bots(node, {"--count", "1", "--first", number, "--duration", until});
-  }
-  static std::optional<std::string> place_among_nodes(const Process& node) {
-    return node.line_after("nodes reach this one at ");
-  }
-  std::string record_of(const std::string& name) const {
-    return (folder_ / (name + ".keys")).string();
-  }
-};
 
 TEST_F(NodeCommand, PlaysWithClientsOfEachNodeTheGameOfOneEngine) {
   Process& one = first();
@@ -86,23 +34,6 @@ TEST_F(NodeCommand, PlaysWithClientsOfEachNodeTheGameOfOneEngine) {
   std::vector<int> counts(8, 0);
   for (const InputEvent& event : log.events) ++counts[event.player];
   EXPECT_THAT(counts, testing::Each(testing::Gt(0))) << "players of both nodes pressed keys";
-}
-
-/// The log that each node has written, which one engine replays to its hash.
-KeyLog same_log(const std::vector<std::string>& records) {
-  const KeyLog log = read_key_log(std::filesystem::path(records.front()));
-  for (const std::string& record : records)
-    EXPECT_EQ(log, read_key_log(std::filesystem::path(record)));
-  EXPECT_TRUE(log.hash);
-  EXPECT_EQ(replay(log, recorded_scene(log, records.front())), log.hash.value_or(0));
-  return log;
-}
-
-std::vector<InputEvent> keys_of(const KeyLog& log, std::uint32_t player) {
-  std::vector<InputEvent> keys;
-  for (const InputEvent& event : log.events)
-    if (event.player == player) keys.push_back(event);
-  return keys;
 }
 
 TEST_F(NodeCommand, GivesFreeBatsToLatecomersAtEachNodeAndNoneTwice) {
@@ -222,44 +153,6 @@ TEST_F(NodeCommand, RefusesOtherScenesAndPeersAndGoesOn) {
   EXPECT_FALSE(one.ending());
 }
 
-TEST_F(NodeCommand, EndsWithTheNodeThatIsKilledAndSaysSo) {
-  Process& one = first({"--duration", "1000"});
-  Process& two = join(one);
-  bots(one, {"--view", "1"}), bots(two);  // so that the first node is told of everything
-  ASSERT_TRUE(
-      until([&] { return one.line_after("listening on ") && two.line_after("listening on "); }));
-  std::this_thread::sleep_for(2s);
-  ASSERT_EQ(kill(two.id(), SIGKILL), 0);
-  ASSERT_TRUE(ends(one, 60s));
-  EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(one.stderr_tail(), HasSubstr("peer 1"));
-  const KeyLog log = read_key_log(std::filesystem::path(record_of("first")));
-  ASSERT_TRUE(log.hash);
-  EXPECT_EQ(replay(log, recorded_scene(log, "first.keys")), *log.hash) << "nothing it had is lost";
-}
-
-TEST_F(NodeCommand, LosesASilentNodeAfterThePatienceWithNodes) {
-  Process& one = first({"--clients", "0", "--duration", "1000", "--node-patience", "1"});
-  Process& two = join(one, {"--clients", "0"});
-  ASSERT_TRUE(
-      until([&] { return one.line_after("listening on ") && two.line_after("listening on "); }));
-  std::this_thread::sleep_for(1s);
-  ASSERT_EQ(kill(two.id(), SIGSTOP), 0);
-  ASSERT_TRUE(ends(one));
-  EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-  EXPECT_THAT(one.stderr_tail(), HasSubstr("was silent for 1 s"));
-}
-
-TEST_F(NodeCommand, NoticesALossWhileItWaitsForItsOwnPlayers) {
-  Process& one = first();
-  Process& two = join(one);
-  ASSERT_TRUE(
-      until([&] { return one.line_after("listening on ") && two.line_after("listening on "); }));
-  ASSERT_EQ(kill(two.id(), SIGKILL), 0);
-  ASSERT_TRUE(ends(one));
-  EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
-}
-
 TEST_F(NodeCommand, SaysHowManyNodesCameInTime) {
   Process& one = first({"--nodes", "3", "--patience", "2"});
   Process& two = join(one);
@@ -288,7 +181,8 @@ TEST_F(NodeCommand, SaysWhatNodesCannotPlay) {
       {{"--nodes", "2", "--pace", "synchronous", "--duration", "1"}, "in real time"},
       {{"--nodes", "2", "--node-listen", "127.0.0.1:0", "--duration", "1", "--budget", "9"},
        "--budget: nodes play each window whole"},
-      {{"--join", "127.0.0.1:1", "--absence", "9"}, "--absence: the first node"}};
+      {{"--join", "127.0.0.1:1", "--absence", "9"}, "--absence: the first node"},
+      {{"--transport", "mpi", "--unmirrored"}, "--unmirrored: MPI ends all ranks"}};
   for (const auto& [arguments, complaint] : cases) {
     const Process& node = serve("first", arguments);
     ASSERT_TRUE(ends(node));

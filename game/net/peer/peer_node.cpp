@@ -17,7 +17,7 @@ PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
             [this](peer::PeerNumber to, peer::Subject about, std::vector<std::uint8_t> bytes) {
               count_and_send(to, traffic_of(about), std::move(bytes));
             }),
-      interest_(game, settings, *peer_, division_,
+      interest_({game.scene(), game.start(), game.extent_max()}, settings, *peer_, division_,
                 [this](peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> bytes) {
                   count_and_send(to, about, std::move(bytes));
                 }),

@@ -290,6 +290,16 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
   if (part_options.members.empty()) settings.players = players(terms, peer_infos);
   settings.is_stopped = part_options.is_stopped;
   std::optional<peer::Session> made;
+  if (LossParticipant* const losses = part_options.losses)
+    settings.losses = {
+        .when_taken_over =
+            [losses](peer::PeerNumber lost, const peer::Part& part,
+                     std::span<const peer::Key> keys) { losses->take_over(lost, part, keys); },
+        .when_entered = [losses, &made](peer::Peer& peer) { losses->seat_again(*made, peer); },
+        .when_recovered =
+            [losses, &made](std::span<const peer::Key> pending) {
+              losses->go_back(*made, pending);
+            }};
   if (part_options.participant != nullptr)
     settings.when_committed = [&] {
       if (made) part_options.participant->after_stretch(*made);
@@ -313,24 +323,27 @@ PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_i
     part_options.notify("peer " + std::to_string(number) + " is in from " +
                         std::to_string(session.peer().now()) + " s");
   if (part_options.observer != nullptr) part_options.observer->begin(session);
-  while (!session.is_over()) {
-    if (part_options.before_window) part_options.before_window(session.peer().now());
-    if (part_options.wants_to_leave && terms.is_replicated && part_options.wants_to_leave())
-      session.leave();
-    if (part_options.participant != nullptr) part_options.participant->before_window(session);
-    session.advance();
-    membership.notify();
-    if (part_options.observer != nullptr) part_options.observer->when_stepped();
-    if (part_options.participant != nullptr) part_options.participant->after_window(session);
-    crowd.act(session);
-  }
+  const auto play_on = [&] {
+    while (!session.is_over()) {
+      if (part_options.before_window) part_options.before_window(session.peer().now());
+      if (part_options.wants_to_leave && terms.is_replicated && part_options.wants_to_leave())
+        session.leave();
+      if (part_options.participant != nullptr) part_options.participant->before_window(session);
+      session.advance();
+      membership.notify();
+      if (part_options.observer != nullptr) part_options.observer->when_stepped();
+      if (part_options.participant != nullptr) part_options.participant->after_window(session);
+      crowd.act(session);
+    }
+  };
+  play_on();
   if (part_options.observer != nullptr) part_options.observer->end();
   PlayedPart part;
   part.has_left = session.has_left();
   // A peer that left in good order is no member of the last window.
   part.was_last =
       part.has_left && session.members().size() == 1 && session.members().front() == number;
-  if (!session.has_left()) end(session, part);
+  while (!session.has_left() && !end(session, part)) play_on();
   part.has_left = session.has_left();
   membership.notify();
   part.members = session.members().size();
@@ -358,10 +371,12 @@ KeyLog SharedGame::record_of(const PlayedPart& part, const std::string& scene_te
   return log;
 }
 
-/// All peers have exchanged their parts and their players' keys.
-void SharedGame::end(peer::Session& session, PlayedPart& part) const {
+/// All peers have exchanged their parts and their players' keys. False if the last window was
+/// undone instead.
+bool SharedGame::end(peer::Session& session, PlayedPart& part) const {
   std::vector<peer::Handover> parts = session.end();
-  if (session.has_left()) return;
+  if (session.has_left()) return true;
+  if (parts.empty()) return false;
   const physics::PartWorld& own = session.peer().world();
   const auto world = peer::hash_of_whole(own.spec(), own.body_count(), parts);
   if (!world) throw peer::ProtocolError("not every body has one owner in the end");
@@ -369,6 +384,7 @@ void SharedGame::end(peer::Session& session, PlayedPart& part) const {
   part.keys = keys_with(parts);
   part.hash = hash(*world, part.keys, session.peer().now(), session.scoring());
   part.score = {session.scoring().left, session.scoring().right};
+  return true;
 }
 
 }  // namespace rink::game

@@ -47,6 +47,17 @@ class WindowParticipant {
   virtual void after_stretch(const peer::Session&) {}
 };
 
+/// Who keeps more of a session than the session does, and goes back with it after a loss: see
+/// peer::LossHooks.
+class LossParticipant {
+ public:
+  virtual ~LossParticipant() = default;
+  virtual void take_over(peer::PeerNumber lost, const peer::Part& part,
+                         std::span<const peer::Key> keys) = 0;
+  virtual void seat_again(peer::Session& session, peer::Peer& peer) = 0;
+  virtual void go_back(peer::Session& session, std::span<const peer::Key> pending) = 0;
+};
+
 /// An observer of a session's windows while they are played.
 class WindowObserver {
  public:
@@ -77,6 +88,7 @@ struct PartOptions {
   std::function<void()> when_taken{};  ///< the start is no longer needed: SharedGame::forget_start
                                        ///< may be called
   WindowObserver* observer = nullptr;
+  LossParticipant* losses = nullptr;                ///< or null; of a replicated session
   std::function<bool(std::uint64_t)> is_stopped{};  ///< as peer::SessionSettings'
   bool takes_latecomers = false;  ///< the participant seats players while others play
 };
@@ -142,7 +154,7 @@ class SharedGame {
   std::vector<InputEvent> keys_with(std::span<const peer::Handover> logs) const;
   std::uint64_t hash(std::uint64_t world, std::span<const InputEvent> keys, double until,
                      const peer::Scoring& scoring) const;
-  void end(peer::Session& session, PlayedPart& part) const;
+  bool end(peer::Session& session, PlayedPart& part) const;
 
   Scene scene_;
   std::vector<InputEvent> keys_;  ///< in the order in which a Game applies them

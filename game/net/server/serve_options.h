@@ -19,7 +19,8 @@ struct ServeOptions {
   std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's
   std::vector<std::string> members{};  ///< of the federation file's list, if it has one
   std::uint16_t port = 4711;
-  bool is_rank = false;  ///< of MPI, all of which share the simulation
+  bool is_rank = false;       ///< of MPI, all of which share the simulation
+  bool is_replicated = true;  ///< nodes keep copies of each other's parts
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, clients = 0, sweep_ticks = 0,
                 threads = 1,  ///< that play parts of the field at once
       nodes = 0,              ///< that share the simulation; 0: this server alone, or `join`

@@ -139,7 +139,9 @@ void Server::federate_joined(rti::FederateHandle federate, std::string_view name
                              std::string_view type) {
   if (type != player_federate_type) return;
   const std::optional<std::uint32_t> player = seats_.free(name);
-  if (!shared_ || (player && !shared_->has_begun())) return seat_player(federate, player);
+  const bool is_at_once = !shared_ || (player && !shared_->has_begun());
+  if (shared_ && is_at_once) shared_->keep_seat(*player, token_of(name));
+  if (is_at_once) return seat_player(federate, player);
   seats_.await(federate, token_of(name));
   shared_->ask_seat({.token = token_of(name), .player = seats_.named(name)});
 }

@@ -69,6 +69,8 @@ class SharedPlay {
   virtual void ask_seat(const SeatQuestion& question) = 0;
   /// The next answer, in any order, once.
   virtual std::optional<SeatAnswer> next_seat() = 0;
+  /// Before the game begins: a player of this token has a bat that is seated at this server.
+  virtual void keep_seat(std::uint32_t player, std::uint64_t token) = 0;
   /// The player has left, without pressed keys. Its bat is kept for it for a while.
   virtual void leave_seat(std::uint32_t player, std::uint64_t token) = 0;
 

@@ -87,8 +87,9 @@ void Session::exchange(const Addressees& addressees, Make&& make,
 
 void Session::advance() {
   for (;;) try {
+      const bool is_awaited = inbox_.must_recover() && settings_.losses.are_set();
       if (inbox_.must_recover()) recover();
-      if (!is_over()) play_window();
+      if (!is_over() && !is_awaited) play_window();
       return;
     } catch (const LossTold&) {
     } catch (const PeerGone& gone) {
@@ -223,6 +224,7 @@ std::vector<Handover> Session::end() {
   std::vector<Handover> all;
   for (;;) try {
       if (inbox_.must_recover()) recover(), all.clear();
+      if (!is_over() && settings_.losses.are_set()) return {};
       while (!is_over()) play_window();
       if (has_left_) return {};
       all = last_parts();

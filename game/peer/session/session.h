@@ -43,7 +43,8 @@ class Session {
           std::vector<PeerNumber> members);
 
   /// Plays a window, or recovers and plays one that was undone: then `window` may be unchanged, or
-  /// less. Throws Halt, ProtocolError, and the mail's exceptions.
+  /// less. With LossHooks it returns between the two. Throws Halt, ProtocolError, and the mail's
+  /// exceptions.
   void advance();
   /// How many windows are final.
   std::uint64_t window() const { return now_.window; }
@@ -71,7 +72,8 @@ class Session {
   const Peer& peer() const { return *peer_; }
   /// Call it after the last window: returns the bodies and, as keys, the logs of all peers, by
   /// peer. It is too late to leave then; but a peer that had handed over its zone may still leave
-  /// on the way (then the list is empty).
+  /// on the way (then the list is empty). With LossHooks it is empty, too, where a loss has undone
+  /// the last window, which is to be played again.
   std::vector<Handover> end();
 
   SessionCounters counters() const;

@@ -2,6 +2,7 @@
 // there.
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 #include "game/peer/session/part_change.h"
@@ -24,6 +25,15 @@ std::string why_a_minority_halts(const State& now, const Losses& losses) {
       std::ranges::count_if(now.members, [&](PeerNumber peer) { return !losses.is_gone(peer); });
   return losses.last() + ". On this side " + std::to_string(left) + " of " +
          std::to_string(now.members.size()) + " peers are left: it halts, for the others may go on";
+}
+
+/// Each share names all of the part that it is of.
+std::vector<Key> pending_keys(std::span<const Handover> shares) {
+  std::vector<Key> pending;
+  for (const Handover& share : shares)
+    std::ranges::copy_if(share.keys, std::back_inserter(pending),
+                         [](const Key& key) { return key.input != 0; });
+  return pending;
 }
 
 /// What its sender has said before it knew of a loss.
@@ -145,6 +155,7 @@ void Session::rebuild() {
   before_ = std::exchange(now_, std::move(next));
   if constexpr (checks_whole_structures) now_.check();
   press_again();
+  if (settings_.losses.are_set()) settings_.losses.when_recovered(pending_keys(shares));
 }
 
 /// A new peer in the place of the old one, from the shares of all.
@@ -158,6 +169,7 @@ void Session::enter(const State& next, std::span<const Handover> shares) {
   for (const Player& player : next.players)
     if (next.has(player.peer))
       for (const Seat& seat : settings_.seats_of(player)) peer_->players().seat(seat);
+  if (settings_.losses.are_set()) settings_.losses.when_entered(*peer_);
   const double time = next.time;
   // It counts stretches, of which a window may have several.
   peer_->enter(static_cast<std::uint32_t>(next.step), time, shares);

@@ -4,15 +4,34 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "game/peer/protocol.h"
 #include "game/peer/session/scoring.h"
 #include "game/peer/session/session_state.h"
+#include "game/peer/standby/part_replay.h"
 #include "game/peer/standby/standby_feed.h"
 #include "game/peer/start.h"
 
 namespace rink::peer {
+
+/// For callers of a replicated session who keep more than the session does. All are set, or none:
+/// then Session::advance and Session::end return after a recovery, before a window is played.
+struct LossHooks {
+  /// This peer stands in for `lost`, and had its part at the step to which all go back; `keys` of
+  /// live players took effect there in the stretch that led to that step. Called at each attempt.
+  std::function<void(PeerNumber lost, const Part& part, std::span<const Key> keys)>
+      when_taken_over{};
+  /// The own part is another from now on: players who took seats since the start are to be seated
+  /// again. Nothing of it was said to others yet.
+  std::function<void(Peer&)> when_entered{};
+  /// All have gone back to the same step, and go on. `pending` are the keys of live players, on all
+  /// bats, that are still to take effect; all others that took none so far are forgotten.
+  std::function<void(std::span<const Key> pending)> when_recovered{};
+
+  bool are_set() const { return when_recovered != nullptr; }
+};
 
 /// Equal for all peers but for `number`; newcomers ignore `peer_count`, `players` and `halo`.
 struct SessionSettings {
@@ -46,6 +65,7 @@ struct SessionSettings {
   /// is prepared: the peer's change is that of the stretch, with the pucks that came back at its
   /// end.
   std::function<void()> when_committed{};
+  LossHooks losses{};
   /// If not empty: true if the session is over after this window, won or not, of which all peers
   /// must know before they play it; not of a replicated session, which may undo it.
   std::function<bool(std::uint64_t window)> is_stopped{};

@@ -120,6 +120,8 @@ std::vector<Part> Standby::played_parts(const State& now, const physics::WorldSp
                   std::to_string(now.step));
     parts.push_back(copy.part(spec, inbox_.validator(), division, peer));
     if (peer == settings_.number) continue;
+    if (settings_.losses.are_set())
+      settings_.losses.when_taken_over(peer, parts.back(), copy.last_keys());
     const std::vector<Key> log = copy.log();
     inherited.insert(inherited.end(), log.begin(), log.end());
   }

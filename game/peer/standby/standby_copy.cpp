@@ -45,6 +45,7 @@ bool StandbyCopy::add(PartRecord record) {
 void StandbyCopy::move_on() {
   while (!records_.empty() && records_.front().step <= next_->step) {
     add_keys(records_.front(), log_);
+    next_->keys = std::move(records_.front().own_keys);
     records_.pop_front();
   }
   if (next_->part.is_first) log_ = std::exchange(next_->part.log, {});
@@ -104,6 +105,11 @@ std::vector<Key> StandbyCopy::log() const {
   for (const PartRecord& record : records_)
     if (!is_told_whole || record.step > next_->step) add_keys(record, all);
   return all;
+}
+
+const std::vector<Key>& StandbyCopy::last_keys() const {
+  assert(base_ || next_);
+  return records_.empty() ? newest().keys : records_.back().own_keys;
 }
 
 std::size_t StandbyCopy::snapshot_size() const {

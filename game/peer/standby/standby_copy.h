@@ -39,6 +39,8 @@ class StandbyCopy {
             PeerNumber peer) const;
   /// The keys of live players that took effect on the part's bats since the start.
   std::vector<Key> log() const;
+  /// Of these, those that did so in the last step.
+  const std::vector<Key>& last_keys() const;
   /// How many bytes of snapshots it holds, and how many events a replay has.
   std::size_t snapshot_size() const;
   std::uint64_t replay_events() const;
@@ -52,6 +54,7 @@ class StandbyCopy {
     std::uint64_t step = 0;
     double time = 0.0;  ///< s
     PartSnapshot part{};
+    std::vector<Key> keys{};  ///< that took effect in that step, once it is the base
   };
   struct Coming {
     std::uint64_t step = 0, total = 0;

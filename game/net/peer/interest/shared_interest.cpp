@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "game/net/peer/shared_game.h"
 #include "game/replication/filter_setup.h"
 #include "rti/wire/stream.h"
 
@@ -41,22 +40,21 @@ void keep_for_now(PeerReplicas& picture, peer::PeerNumber from, peer::PeerNumber
 
 }  // namespace
 
-SharedInterest::SharedInterest(const SharedGame& game, const InterestSettings& settings,
+SharedInterest::SharedInterest(const SharedStart& start, const InterestSettings& settings,
                                const peer::Peer& peer, const peer::Division& division, Send send)
     : settings_(settings),
       peer_(peer),
       division_(division),
       send_(std::move(send)),
       view_(settings.margin),
-      interest_(settings.scheme, filter_settings(game.scene(), settings.cell_size), settings.policy,
-                roles_of(game.start(), settings.always_relevant), game.extent_max()),
-      replicas_(interest_.sends_trajectories(), Drag::of(game.scene().world),
-                kinds_of(game.start())),
-      places_(game.start().world().body_count(), Place::away) {
+      interest_(settings.scheme, filter_settings(start.scene, settings.cell_size), settings.policy,
+                roles_of(start.game, settings.always_relevant), start.extent_max),
+      replicas_(interest_.sends_trajectories(), Drag::of(start.scene.world), kinds_of(start.game)),
+      places_(start.game.world().body_count(), Place::away) {
   std::vector<peer::PeerNumber> all(settings.bats.size());
   std::iota(all.begin(), all.end(), peer::PeerNumber{0});
   set_members(all, settings.bats);
-  if (bat() != no_bat && !settings.is_late) seen_bat_ = game.start().position({bat()});
+  if (bat() != no_bat && !settings.is_late) seen_bat_ = start.game.position({bat()});
 }
 
 void SharedInterest::set_members(std::span<const peer::PeerNumber> members,

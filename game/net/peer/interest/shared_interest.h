@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "game/control/game.h"
 #include "game/net/following_view.h"
 #include "game/net/peer/interest/key_counts.h"
 #include "game/net/peer/interest/peer_replicas.h"
@@ -19,8 +20,6 @@
 #include "game/peer/peer.h"
 
 namespace rink::game {
-
-class SharedGame;
 
 /// The bat of a peer without a player.
 inline constexpr std::uint32_t no_bat = 0xffffffffu;
@@ -38,15 +37,23 @@ struct InterestSettings {
   bool is_late = false;  ///< others have played before: the bat is not where it started
 };
 
+/// A shared game before anything has moved; the widest body reaches `extent_max` [m] from its
+/// middle.
+struct SharedStart {
+  const Scene& scene;
+  const Game& game;
+  double extent_max;
+};
+
 /// The owner of a bat counts its keys, as a server that replays does. Throws nothing.
 class SharedInterest {
  public:
   using Send =
       std::function<void(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content)>;
   /// There are as many members as bats. `peer` and `division` must outlive it, and may be made anew
-  /// in place (then call `begin_again`); `game` need not. Messages sent must arrive before later
+  /// in place (then call `begin_again`); `start` need not. Messages sent must arrive before later
   /// ones of the protocol to the same peer.
-  SharedInterest(const SharedGame& game, const InterestSettings& settings, const peer::Peer& peer,
+  SharedInterest(const SharedStart& start, const InterestSettings& settings, const peer::Peer& peer,
                  const peer::Division& division, Send send);
   SharedInterest(const SharedInterest&) = delete;
   SharedInterest& operator=(const SharedInterest&) = delete;

@@ -38,7 +38,8 @@ void Viewer::begin(const peer::Session& session) {
   settings.bats = bats();
   settings.is_late = session.step() > 0;
   interest_.emplace(
-      game_, settings, session.peer(), session.division(),
+      SharedStart{game_.scene(), game_.start(), game_.extent_max()}, settings, session.peer(),
+      session.division(),
       [this](peer::PeerNumber to, Traffic about, const std::vector<std::uint8_t>& content) {
         sent_[static_cast<std::size_t>(about)] += content.size();
         ++messages_sent_[static_cast<std::size_t>(about)];

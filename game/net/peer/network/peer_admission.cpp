@@ -56,6 +56,9 @@ void PeerAdmission::answer_in_play(rti::ConnectionId connection, const Hello& he
     return links_.refuse(
         connection, RefusalKind::other,
         "they play already, and without replicas (--unmirrored) none can join them");
+  if (!admits_late_)
+    return links_.refuse(connection, RefusalKind::other,
+                         "they play already, and none can join them any more");
   const bool is_good = !hello.info.place.address.empty() && hello.info.place.port != 0 &&
                        bytes_of(hello.info.place).size() <= peer::Newcomer::place_max;
   if (!is_good)

@@ -17,6 +17,8 @@ class PeerAdmission {
  public:
   PeerAdmission(PeerLinks& links, PeerRoster& roster, double (*now_s)());
 
+  /// Who asks while others play is refused from now on, whatever the terms.
+  void admit_nobody_late() { admits_late_ = false; }
   /// A stranger's frame. False for one that no peer would send.
   bool handle(rti::ConnectionId connection, const Frame& frame);
   /// What came before the own number was known is answered now. Connections that are peers' since
@@ -46,6 +48,7 @@ class PeerAdmission {
   PeerLinks& links_;
   PeerRoster& roster_;
   double (*now_s_)();
+  bool admits_late_ = true;
 };
 
 }  // namespace rink::game

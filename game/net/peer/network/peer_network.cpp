@@ -27,7 +27,9 @@ PeerNetwork::PeerNetwork(rti::SocketTransport& sockets, const PeerNetworkSetting
       links_(sockets, now_s),
       admission_(links_, roster_, now_s),
       dialling_(links_, roster_, losses_),
-      conversation_(links_, roster_, losses_) {}
+      conversation_(links_, roster_, losses_) {
+  if (!settings.admits_late) admission_.admit_nobody_late();
+}
 
 void PeerNetwork::attend(double wait_s) {
   if (before_wait) wait_s = std::clamp(before_wait() - now_s_(), 0.0, wait_s);

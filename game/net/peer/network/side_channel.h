@@ -16,6 +16,8 @@ class SideChannel {
   virtual ~SideChannel() = default;
   /// Without effect if the receiver is gone.
   virtual void send_aside(peer::PeerNumber to, std::vector<std::uint8_t> bytes) = 0;
+  /// How often its user has gone back after a loss, by which it tells what others said before that.
+  std::uint16_t recoveries = 0;
   /// Called while the peer waits for mail; messages wait while it is empty. False for a message
   /// that no peer sends: its sender is dropped.
   std::function<bool(peer::PeerNumber from, std::vector<std::uint8_t> bytes)> receive_aside;

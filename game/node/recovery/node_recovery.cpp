@@ -1,0 +1,154 @@
+// Goes back in the order in which a node's side depends on itself: what was played, what is told,
+// keys, seats.
+#include "game/node/recovery/node_recovery.h"
+
+#include <algorithm>
+#include <cassert>
+#include <string>
+
+#include "game/net/peer/crowd.h"
+#include "game/node/node_messages.h"
+#include "game/peer/message_bytes.h"
+
+namespace rink::game {
+
+NodeRecovery::NodeRecovery(const Parts& parts, Handler handle)
+    : parts_(parts), handle_(std::move(handle)) {
+  assert(handle_ != nullptr);
+}
+
+std::uint32_t NodeRecovery::bat_of(std::uint32_t player) const {
+  return parts_.game.start().bat(player)->index;
+}
+
+std::optional<bool> NodeRecovery::sort(peer::PeerNumber from,
+                                       const std::vector<std::uint8_t>& bytes) {
+  if (bytes.size() < node_message_tail) return false;
+  const std::uint16_t theirs = recoveries_in(bytes), own = parts_.network.recoveries;
+  const bool is_replicated = parts_.network.terms().is_replicated;
+  if (kind_of(bytes) == NodeMessage::stand_in) {
+    StandIn stand_in;
+    if (!is_replicated || stand_ins_.size() >= stand_ins_max ||
+        !peer::read_whole(content_of(bytes), stand_in))
+      return false;
+    stand_ins_.push_back(std::move(stand_in));
+    return true;
+  }
+  if (theirs < own) return true;
+  if (theirs == own) return std::nullopt;
+  if (!is_replicated || early_.size() >= early_max) return false;
+  early_.emplace_back(from, bytes);
+  return true;
+}
+
+bool NodeRecovery::receive(peer::PeerNumber from, peer::PartChange change) try {
+  return parts_.receiver->receive(from, std::move(change));
+} catch (const FaultyPart&) {
+  if (!parts_.network.terms().is_replicated) throw;
+  return false;
+}
+
+void NodeRecovery::finish_window(peer::PartChange own, const peer::Session& session) try {
+  parts_.receiver->finish_window(std::move(own), session.division(), session.peer().share());
+} catch (const FaultyPart& fault) {
+  if (!parts_.network.terms().is_replicated) throw;
+  throw peer::PeerGone(fault.from(), false, fault.what());
+}
+
+void NodeRecovery::note_felt() {
+  for (const peer::Key& key : parts_.feed.take_felt()) {
+    const InputEvent event = event_of(key.input, key.time, 0);
+    held_[key.bat].set(event.key, event.kind == InputKind::key_down);
+    parts_.players.note_felt(key);
+  }
+}
+
+void NodeRecovery::follow() {
+  note_felt();
+  std::erase_if(inherited_, [this](Inherited& each) {
+    const auto& [player, token] = each.seated;
+    if (!each.is_released) {
+      if (!parts_.feed.is_whole(each.after + 1)) return false;
+      parts_.players.release(player, held_[bat_of(player)]);
+      each.is_released = true;
+    }
+    if (parts_.players.has_unfelt(player)) return false;
+    parts_.seats.wish({.change = SeatChange::leave, .player = player, .token = token});
+    return true;
+  });
+}
+
+/// Posts are where they always are.
+void NodeRecovery::take_over(peer::PeerNumber lost, const peer::Part& part,
+                             std::span<const peer::Key> keys) {
+  const std::uint64_t stretch = parts_.feed.stretch_until(part.time);
+  if (stretch == 0) return;  // all know the start
+  StandIn stand_in{.node = lost};
+  stand_in.change.step = stretch, stand_in.change.time = part.time;
+  stand_in.change.bodies = part.bodies;
+  stand_in.change.log.assign(keys.begin(), keys.end());
+  const physics::World& start = parts_.game.start().world();
+  std::erase_if(stand_in.change.bodies, [&](const peer::Handover::Body& body) {
+    return body.number < start.body_count() && start.kind({body.number}) == physics::BodyKind::post;
+  });
+  tell_others(parts_.network, NodeMessage::stand_in, peer::bytes_from(stand_in));
+  if (stand_ins_.size() < stand_ins_max) stand_ins_.push_back(std::move(stand_in));
+}
+
+/// Equal at all: all have the same decisions up to that window.
+void NodeRecovery::seat_again(peer::Session& session, peer::Peer& peer) {
+  parts_.seats.rewind(session.window(), peer.now());
+  const std::vector<peer::PeerNumber>& lost = session.lost();
+  peer::PeerNumber referee = 0;
+  while (std::ranges::binary_search(lost, referee)) ++referee;
+  const std::vector<SeatTable::Seated> inherited = parts_.seats.lose(lost, referee);
+  if (referee == parts_.network.number())
+    for (const SeatTable::Seated& seated : inherited) inherited_.push_back({.seated = seated});
+  for (const auto& [player, node] : parts_.seats.holders())
+    peer.players().move_seat({.bat = bat_of(player), .peer = node, .period = 0.0, .puck_count = 0});
+}
+
+/// Recoveries are counted by their steps and losses: a loss may undo another's recovery, and takes
+/// its step.
+void NodeRecovery::go_back(peer::Session& session, std::span<const peer::Key> pending) {
+  const std::uint64_t stretch = parts_.feed.stretch_until(session.peer().now());
+  assert((stretch > 0) == (session.peer().now() > 0.0));
+  session.peer().keep_changes();
+  parts_.feed.rewind(stretch);
+  parts_.receiver->rewind(stretch, session.division());
+  close(session.lost(), stretch);
+  parts_.teller->begin_again(session.peer(), stretch);
+  parts_.subscription.take_again();
+  note_felt();
+  for (const peer::Key& key : pending) parts_.players.note_felt(key);
+  parts_.players.send_again(session);
+  for (Inherited& each : inherited_) each.after = stretch;
+  parts_.network.recoveries =
+      static_cast<std::uint16_t>(session.step() - stretch + session.lost().size());
+  handle_early();
+}
+
+/// Nothing more comes of lost nodes than who stands in for them says.
+void NodeRecovery::close(const std::vector<peer::PeerNumber>& lost, std::uint64_t stretch) {
+  for (StandIn& each : std::exchange(stand_ins_, {}))
+    if (std::ranges::binary_search(lost, each.node) && each.change.step == stretch)
+      parts_.receiver->stand_in(each.node, std::move(each.change));
+  for (const peer::PeerNumber node : lost) {
+    if (parts_.feed.is_closed(node)) continue;  // since an earlier loss
+    if (parts_.feed.count(node) < stretch)
+      throw peer::ProtocolError("nobody has told what the lost peer " + std::to_string(node) +
+                                " played last");
+    parts_.feed.close(node);
+  }
+}
+
+void NodeRecovery::handle_early() {
+  for (auto& [from, bytes] : std::exchange(early_, {})) {
+    const std::optional<bool> sorted = sort(from, bytes);
+    if (!(sorted ? *sorted : handle_(from, bytes)))
+      throw peer::PeerGone(
+          from, false, "peer " + std::to_string(from) + " sent a side message that no peer sends");
+  }
+}
+
+}  // namespace rink::game
