@@ -1,6 +1,8 @@
 // The registry of schemes: one line each, from name to class.
 #include "im/filter.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "im/composition/schemes.h"
@@ -47,6 +49,19 @@ bool is_valid(const Region& region) {
   return std::isfinite(region.low_x) && std::isfinite(region.low_y) &&
          std::isfinite(region.high_x) && std::isfinite(region.high_y) &&
          region.low_x <= region.high_x && region.low_y <= region.high_y;
+}
+
+double cell_size_of(const FilterSettings& settings) {
+  assert(is_valid(settings.world) && std::isfinite(settings.cell_size));
+  // At 5 % of a square world per subscription, 7 of these make its side and three quarters of what
+  // is sent is wanted.
+  constexpr double cells_across = 32.0;
+  if (settings.cell_size > 0.0) return settings.cell_size;
+  const double width = settings.world.high_x - settings.world.low_x,
+               height = settings.world.high_y - settings.world.low_y;
+  const double side =
+      width > 0.0 && height > 0.0 ? std::sqrt(width) * std::sqrt(height) : std::max(width, height);
+  return side > 0.0 ? side / cells_across : 1.0;
 }
 
 std::unique_ptr<Filter> make_scheme(const std::string& name, const FilterSettings& settings) {

@@ -159,6 +159,11 @@ struct FilterSettings {
   double drag = 0.0;             ///< of all flights: dv/dt = -drag v [1/s]
 };
 
+/// The side of cells that `settings` give, or the square root of their world's area divided by 32
+/// [m]: that of a scheme before it knows subscriptions, and of programs that must agree on one in
+/// advance.
+double cell_size_of(const FilterSettings& settings);
+
 /// Makes the filter that `expression` describes, or null if it is faulty. Schemes by name (see
 /// `filter_names`) with parameters, composed with `and`, `or`, `not` and parentheses, followed by
 /// stages: "aura and not sight", "grid(cell_size=2) or always with hysteresis(margin=0.5) with

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cassert>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -33,15 +34,25 @@ class ReviewedParts : public Parts {
  protected:
   /// Lets every part match and calls `decide(subscriber, entity, decisions, was)` for the level of
   /// each pair about which one of them changed its decision. Returns the changes to report.
+  /// Where nothing moved, a part has only released pairs whose time was up: what follows from that
+  /// is read off decisions that are kept, so no pair counts as tested.
   template <class Decide>
   std::span<const Change> matched(const Decide& decide) {
-    for (std::size_t k = 0; k < parts_.size(); ++k) pairs_.take(k, parts_[k]->match());
+    std::uint64_t moved = 0;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      pairs_.take(k, parts_[k]->match());
+      moved += parts_[k]->counters().regions_moved;
+    }
     changes_.clear();
-    pairs_tested_ += pairs_.review(decide, changes_);
+    const std::size_t reviewed = pairs_.review(decide, changes_);
+    if (std::exchange(moved_, moved) != moved) pairs_tested_ += reviewed;
     return reported(changes_.span());
   }
 
   PairStates pairs_;
+
+ private:
+  std::uint64_t moved_ = 0;  ///< regions of all parts that had moved by the last match
 };
 
 }  // namespace rink::im

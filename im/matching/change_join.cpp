@@ -88,6 +88,12 @@ Region with_area(Region world) {
 ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape)
     : world_(with_area(world)), instructions_(instructions), shape_(shape), join_(instructions) {}
 
+void ChangeJoin::expect(const Region& world) {
+  world_ = with_area(world);
+  for (Standing* standing : {&entities_, &subscribers_})
+    standing->is_live = standing->is_ordered = standing->is_placed = false;
+}
+
 std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
                                          std::span<const std::uint32_t> moved_entities,
                                          const RegionHistory& subscribers,

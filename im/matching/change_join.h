@@ -32,6 +32,10 @@ class ChangeJoin {
                                const RegionHistory& subscribers,
                                std::span<const std::uint32_t> moved_subscribers);
 
+  /// Sets where most are from now on, for callers whose coordinates have a new scale. What is kept
+  /// is built anew at the next match, so this pays only where nearly all move at once.
+  void expect(const Region& world);
+
   /// Sets a worker that takes half where there is enough to match (worker.h), or null for none, as
   /// at first. It must outlive this. Changes and their order are the same.
   void share_with(Worker* worker) { worker_ = worker; }

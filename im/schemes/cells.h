@@ -14,21 +14,6 @@ namespace rink::im {
 
 inline constexpr double largest = std::numeric_limits<double>::max();
 
-/// At 5 % of a square world per subscription, 7 of these make its side and three quarters of what
-/// is sent is wanted (docs/im.md).
-inline constexpr double cells_across = 32.0;
-
-/// The side that `settings` give, or one that suits their world [m].
-inline double cell_size_of(const FilterSettings& settings) {
-  assert(is_valid(settings.world) && std::isfinite(settings.cell_size));
-  if (settings.cell_size > 0.0) return settings.cell_size;
-  const double width = settings.world.high_x - settings.world.low_x,
-               height = settings.world.high_y - settings.world.low_y;
-  const double side =
-      width > 0.0 && height > 0.0 ? std::sqrt(width) * std::sqrt(height) : std::max(width, height);
-  return side > 0.0 ? side / cells_across : 1.0;
-}
-
 /// The largest whole number that is not above `number`. The library's floor is a call where the
 /// processor that is built for has no instruction for it, and half of a pass.
 inline double floored(double number) {

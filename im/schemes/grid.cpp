@@ -1,17 +1,19 @@
 // The scheme `grid`: an entity matters to a subscriber while the cell of its centre is one that the
 // subscriber's region touches.
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "im/schemes/cells.h"
+#include "im/schemes/following_cells.h"
 #include "im/schemes/overlap_filter.h"
 
 namespace rink::im {
 namespace {
 
-class GridFilter final : public OverlapFilter {
+class GridFilter : public OverlapFilter {
  public:
   GridFilter(const Region& world, double cell_size)
       : OverlapFilter(cells_of(world, world, cell_size)), world_(world), cell_size_(cell_size) {}
@@ -42,6 +44,14 @@ class GridFilter final : public OverlapFilter {
   }
   double cell_size() const override { return cell_size_; }
 
+ protected:
+  /// All regions must be set anew afterwards.
+  void resize_cells(double size) {
+    cell_size_ = size;
+    std::fill(cells_.begin(), cells_.end(), unpacked);
+    expect(cells_of(world_, world_, cell_size_));
+  }
+
  private:
   /// Of no cell that can be packed.
   static constexpr std::uint64_t unpacked = 0x8000000080000000u;
@@ -71,7 +81,7 @@ class GridFilter final : public OverlapFilter {
 std::unique_ptr<Filter> make_grid_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_grid_filter(const FilterSettings& settings) {
-  return std::make_unique<GridFilter>(settings.world, cell_size_of(settings));
+  return make_celled_filter<GridFilter>(settings);
 }
 
 }  // namespace rink::im

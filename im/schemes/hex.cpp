@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "im/schemes/cells.h"
+#include "im/schemes/following_cells.h"
 #include "im/schemes/predicate_filter.h"
 
 namespace rink::im {
@@ -37,7 +38,7 @@ struct TouchesHexagon {
 /// Hexagons stand on a corner; `cell_size` is the distance of their upright sides. Their middles
 /// are those of two lattices of rectangles, the second half a rectangle further along both axes;
 /// the nearest middle is the nearer of one from each; an upright side belongs to the right one.
-class HexFilter final : public PredicateFilter<TouchesHexagon> {
+class HexFilter : public PredicateFilter<TouchesHexagon> {
  public:
   HexFilter(const Region& world, double cell_size)
       : PredicateFilter(world, {cell_size}), world_(world), width_(cell_size) {
@@ -60,6 +61,13 @@ class HexFilter final : public PredicateFilter<TouchesHexagon> {
                           bounded(centres.high_x + across), bounded(centres.high_y + across)});
   }
   double cell_size() const override { return width_; }
+
+ protected:
+  /// All regions must be set anew afterwards.
+  void resize_cells(double width) {
+    width_ = width;
+    replace({width});
+  }
 
  private:
   struct Middle {
@@ -98,7 +106,7 @@ class HexFilter final : public PredicateFilter<TouchesHexagon> {
 std::unique_ptr<Filter> make_hex_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_hex_filter(const FilterSettings& settings) {
-  return std::make_unique<HexFilter>(settings.world, cell_size_of(settings));
+  return make_celled_filter<HexFilter>(settings);
 }
 
 }  // namespace rink::im

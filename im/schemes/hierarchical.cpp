@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "im/schemes/cells.h"
+#include "im/schemes/following_cells.h"
 #include "im/schemes/overlap_filter.h"
 
 namespace rink::im {
@@ -10,7 +11,7 @@ namespace {
 
 /// Level k has cells of side 2^k times the smallest. An entity is in the cell of its centre at the
 /// first level whose cells are not shorter than it is.
-class HierarchicalFilter final : public OverlapFilter {
+class HierarchicalFilter : public OverlapFilter {
  public:
   HierarchicalFilter(const Region& world, double cell_size)
       : OverlapFilter(world), world_(world), cell_size_(cell_size) {}
@@ -27,6 +28,10 @@ class HierarchicalFilter final : public OverlapFilter {
         entity, hull_of(cell_around(from, rounding), cell_around(to, rounding)));
   }
   double cell_size() const override { return cell_size_; }
+
+ protected:
+  /// All regions must be set anew afterwards.
+  void resize_cells(double size) { cell_size_ = size; }
 
  private:
   /// More than a difference of its coordinates may be wrong by.
@@ -61,7 +66,7 @@ class HierarchicalFilter final : public OverlapFilter {
 std::unique_ptr<Filter> make_hierarchical_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_hierarchical_filter(const FilterSettings& settings) {
-  return std::make_unique<HierarchicalFilter>(settings.world, cell_size_of(settings));
+  return make_celled_filter<HierarchicalFilter>(settings);
 }
 
 }  // namespace rink::im

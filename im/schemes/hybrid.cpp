@@ -1,8 +1,9 @@
 // The scheme `hybrid`: an entity matters to a subscriber while `grid` says so and their closed
 // rectangles overlap.
-#include "im/schemes/cells.h"
-
 #include <cassert>
+
+#include "im/schemes/cells.h"
+#include "im/schemes/following_cells.h"
 #include "im/schemes/predicate_filter.h"
 
 namespace rink::im {
@@ -30,15 +31,25 @@ struct InTouchedCell {
   }
 };
 
-class HybridFilter final : public PredicateFilter<InTouchedCell> {
+class HybridFilter : public PredicateFilter<InTouchedCell> {
  public:
   HybridFilter(const Region& world, double cell_size)
-      : PredicateFilter(world, {.world = world, .cell_size = cell_size}), cell_size_(cell_size) {
+      : PredicateFilter(world, {.world = world, .cell_size = cell_size}),
+        world_(world),
+        cell_size_(cell_size) {
     assert(cell_size_ > 0.0);
   }
   double cell_size() const override { return cell_size_; }
 
+ protected:
+  /// All regions must be set anew afterwards.
+  void resize_cells(double size) {
+    cell_size_ = size;
+    replace({.world = world_, .cell_size = size});
+  }
+
  private:
+  Region world_;
   double cell_size_;
 };
 
@@ -47,7 +58,7 @@ class HybridFilter final : public PredicateFilter<InTouchedCell> {
 std::unique_ptr<Filter> make_hybrid_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_hybrid_filter(const FilterSettings& settings) {
-  return std::make_unique<HybridFilter>(settings.world, cell_size_of(settings));
+  return make_celled_filter<HybridFilter>(settings);
 }
 
 }  // namespace rink::im

@@ -37,6 +37,8 @@ class OverlapFilter : public Filter {
   // returns the changes, `settle` accepts the final ones.
   std::span<const Change> find();
   void settle(std::span<const Change> changes);
+  /// For schemes whose coordinates get a new scale: where most entities are from now on.
+  void expect(const Region& world) { join_.expect(world); }
 
   RegionHistory entities_, subscribers_;
   FilterCounters counters_;

@@ -14,6 +14,7 @@
 
 #include "im/marks.h"
 #include "im/schemes/candidate_pairs.h"
+#include "im/schemes/judgement.h"
 #include "im/schemes/odometer.h"
 #include "im/schemes/overlap_filter.h"
 
@@ -24,14 +25,6 @@ namespace rink::im {
 struct Party {
   std::uint32_t id;
   const Region& region;
-};
-
-/// What a predicate may return instead of a bool: the answer, and how far both may come from here,
-/// the sum of the greatest changes of any coordinate of either [m], before the answer can change,
-/// without regard to rounding. 0: not known, so the predicate is called whenever one has moved.
-struct Judgement {
-  bool is_relevant;
-  double slack;
 };
 
 /// An entity matters to a subscriber while their closed rectangles overlap and
@@ -106,6 +99,12 @@ class PredicateFilter : public OverlapFilter {
   /// of its region by `length` metres would, or without a bound.
   void turned(Subscriber subscriber, double length) { subscriber_ways_.add(subscriber, length); }
   void turned(Subscriber subscriber) { pairs_.wake(subscriber); }
+  /// The predicate is another from now on, so the next match asks it about every pair.
+  void replace(Relevant relevant) {
+    relevant_ = std::move(relevant);
+    for (Subscriber subscriber = 0; subscriber < subscribers_.size(); ++subscriber)
+      turned(subscriber), subscribers_.touch(subscriber);
+  }
 
  private:
   static Judgement judgement(bool is_relevant) { return {is_relevant, 0.0}; }

@@ -1,13 +1,14 @@
 // The scheme `strips`: an entity matters to a subscriber while the upright strip that its middle is
 // in is one that the subscription touches, as in corridors.
 #include "im/schemes/cells.h"
+#include "im/schemes/following_cells.h"
 #include "im/schemes/overlap_filter.h"
 
 namespace rink::im {
 namespace {
 
 /// Maps both to whole numbers along a line, so that a move within a strip is none.
-class StripsFilter final : public OverlapFilter {
+class StripsFilter : public OverlapFilter {
  public:
   StripsFilter(const Region& world, double width)
       : OverlapFilter(strips_of(cells_of(world, world, width))), world_(world), width_(width) {}
@@ -26,6 +27,13 @@ class StripsFilter final : public OverlapFilter {
   }
   double cell_size() const override { return width_; }
 
+ protected:
+  /// All regions must be set anew afterwards.
+  void resize_cells(double width) {
+    width_ = width;
+    expect(strips_of(cells_of(world_, world_, width_)));
+  }
+
  private:
   static Region strips_of(const Region& cells) { return {cells.low_x, 0.0, cells.high_x, 0.0}; }
 
@@ -38,7 +46,7 @@ class StripsFilter final : public OverlapFilter {
 std::unique_ptr<Filter> make_strips_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_strips_filter(const FilterSettings& settings) {
-  return std::make_unique<StripsFilter>(settings.world, cell_size_of(settings));
+  return make_celled_filter<StripsFilter>(settings);
 }
 
 }  // namespace rink::im

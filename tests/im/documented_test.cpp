@@ -32,13 +32,10 @@ std::vector<std::string> samples_after(const std::string& heading, const std::st
   return samples;
 }
 
-TEST(Documentation, ShowsTheSamplesAsTheyAreCompiled) {
+TEST(Documentation, ShowsTheSampleAsItIsCompiled) {
   const std::vector<std::string> samples = samples_after("## A new scheme", text_of("docs/im.md"));
-  ASSERT_EQ(samples.size(), 4u);
-  EXPECT_NE(text_of("im/schemes/diamond.cpp").find(samples[0]), std::string::npos) << samples[0];
-  EXPECT_NE(text_of("im/schemes/diamond.cpp").find(samples[1]), std::string::npos) << samples[1];
-  EXPECT_NE(text_of("im/filter.cpp").find(samples[2]), std::string::npos) << samples[2];
-  EXPECT_NE(text_of("im/schemes/strips.cpp").find(samples[3]), std::string::npos) << samples[3];
+  ASSERT_EQ(samples.size(), 1u);
+  EXPECT_NE(text_of("im/filter.cpp").find(samples[0]), std::string::npos) << samples[0];
 }
 
 TEST(Documentation, BeginsWithASampleThatDoesWhatItSays) {

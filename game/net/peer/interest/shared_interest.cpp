@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "game/replication/filter_setup.h"
+#include "im/filter.h"
 #include "rti/wire/stream.h"
 
 namespace rink::game {
@@ -18,6 +19,14 @@ std::vector<physics::BodyKind> kinds_of(const Game& game) {
   std::vector<physics::BodyKind> kinds(game.world().body_count(), physics::BodyKind::puck);
   for (const Entity& entity : game.entities()) kinds[entity.id.index] = entity.kind;
   return kinds;
+}
+
+/// The filter settings of a server, but that cells whose size nobody gave have one that follows
+/// from the world: peers send each other numbers of cells before they know each other's views.
+im::FilterSettings settings_of_peers(const Scene& scene, double cell_size) {
+  im::FilterSettings settings = filter_settings(scene, cell_size);
+  settings.cell_size = im::cell_size_of(settings);
+  return settings;
 }
 
 std::vector<im::Role> roles_of(const Game& start, RelevantKinds always) {
@@ -47,7 +56,7 @@ SharedInterest::SharedInterest(const SharedStart& start, const InterestSettings&
       division_(division),
       send_(std::move(send)),
       view_(settings.margin),
-      interest_(settings.scheme, filter_settings(start.scene, settings.cell_size), settings.policy,
+      interest_(settings.scheme, settings_of_peers(start.scene, settings.cell_size), settings.policy,
                 roles_of(start.game, settings.always_relevant), start.extent_max),
       replicas_(interest_.sends_trajectories(), Drag::of(start.scene.world), kinds_of(start.game)),
       places_(start.game.world().body_count(), Place::away) {
