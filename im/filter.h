@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,8 @@
 
 #include "im/change.h"
 #include "im/region.h"
+
+struct rink_plugin;  // im/pairs/rink_plugin.h
 
 namespace rink::im {
 
@@ -51,6 +54,21 @@ struct Role {
 /// other facts.
 struct Traits {
   bool uses_roles = false, uses_headings = false, uses_flights = false, decides_tiers = false;
+  bool uses_facts = false,  ///< `Facts`
+      uses_time = false;    ///< the time of `set_time`, against which the facts' times count
+};
+
+/// The kinds of things that conditions tell apart (docs/im.md, "Conditions").
+enum class EntityKind : std::uint8_t { unknown, puck, bat, post };
+
+/// What conditions and scores may ask beside region and role.
+struct Facts {
+  double velocity_x = 0.0, velocity_y = 0.0;  ///< m/s
+  Heading heading{};                          ///< of no length: that of the velocity
+  EntityKind kind = EntityKind::unknown;
+  double changed_at = -std::numeric_limits<double>::infinity();  ///< when its motion last changed
+                                                                 ///< by contact or key [s]
+  friend bool operator==(const Facts&, const Facts&) = default;
 };
 
 /// How something moves until its next flight: its middle from (x, y) at `time` [s] on with that
@@ -112,6 +130,10 @@ class Filter {
   virtual void set_subscriber_flight(Subscriber, const Flight&) {}
   virtual void set_time(double) {}
 
+  /// Set facts for conditions and scores. Unknown ids are ignored; forgetting an id forgets them.
+  virtual void set_entity_facts(Entity, const Facts&) {}
+  virtual void set_subscriber_facts(Subscriber, const Facts&) {}
+
   /// Sets a region that sweeps in a straight line from `from` to `to`, rectangles of one size:
   /// every pair that would be relevant anywhere in between is relevant, and perhaps more. By
   /// default the region is the rectangle around both; a scheme whose shape in it would miss some
@@ -157,6 +179,8 @@ struct FilterSettings {
                                  ///< 0 to 180; people see sharply over some 120 degrees
   std::vector<Disc> posts{};     ///< discs that block the view [m]
   double drag = 0.0;             ///< of all flights: dv/dt = -drag v [1/s]
+  std::span<const rink_plugin* const> plugins{};  ///< that expressions may name; they outlive the
+                                                  ///< filter
 };
 
 /// The side of cells that `settings` give, or the square root of their world's area divided by 32

@@ -64,6 +64,16 @@ void FederationExecution::set_object_flight(ObjectHandle object, const im::Fligh
   if (slot != no_object) parts_->ground.distribution->set_flight(slot, flight);
 }
 
+void FederationExecution::set_object_facts(ObjectHandle object, const im::Facts& facts) {
+  const ObjectSlot slot = parts_->ground.objects.find(object);
+  if (slot != no_object) parts_->ground.distribution->set_facts(slot, facts);
+}
+
+void FederationExecution::set_federate_facts(FederateHandle federate, const im::Facts& facts) {
+  if (const auto slot = parts_->ground.federates.joined(federate))
+    parts_->ground.distribution->set_federate_facts(*slot, facts);
+}
+
 void FederationExecution::set_time(double now) { parts_->ground.distribution->set_time(now); }
 
 void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }

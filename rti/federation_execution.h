@@ -63,6 +63,9 @@ class FederationExecution final : public CentralComponent {
   /// region, and the time [s]: all are finite, and time never goes back.
   void set_federate_heading(FederateHandle federate, const im::Heading& heading);
   void set_object_flight(ObjectHandle object, const im::Flight& flight);
+  /// What conditions may ask (im/filter.h): of an object since it last committed its region.
+  void set_object_facts(ObjectHandle object, const im::Facts& facts);
+  void set_federate_facts(FederateHandle federate, const im::Facts& facts);
   void set_time(double now);
   /// Runs the filter and turns its changes into scope changes.
   void match() override;

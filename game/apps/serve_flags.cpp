@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "game/apps/plugin_flag.h"
 #include "game/apps/rank_command.h"
 #include "game/net/exit_status.h"
 #include "game/net/limits.h"
 #include "game/net/peer/network/greetings.h"
 #include "game/net/relevant_kinds.h"
 #include "game/process/thread_team.h"
+#include "im/expression_fault.h"
 #include "im/filter.h"
 #include "rti/transport/socket_transport.h"
 
@@ -117,9 +119,13 @@ void add_options(Flags& flags, ServeOptions& options) {
       .option("--scheme", options.scheme,
               "interest management: a scheme, or several with and, or, not, and stages after "
               "with (docs/im.md)")
-      .check({[](const std::string& text) { return im::complaint_about(text, {}).value_or(""); },
+      .check({[](const std::string& text) {
+                const auto fault = im::fault_in(text);  // plugins may be named later
+                return fault ? fault->what : std::string();
+              },
               "SCHEME"})
       .shows_default();
+  add_plugin_option(flags, options.plugins);
   flags
       .option("--cell-size", options.cell_size,
               "side of the cells of schemes that have some [m]; 0: chosen")

@@ -24,6 +24,7 @@
 #include "game/net/interrupt.h"
 #include "game/net/peer/network/listening_place.h"
 #include "game/net/peer/network/session_error.h"
+#include "game/net/plugins.h"
 #include "game/net/record_file.h"
 #include "game/net/server/serve_requirements.h"
 #include "game/net/server/serve_status.h"
@@ -76,6 +77,8 @@ ServedGame game_of(ServeOptions& options, RankCommand& command) {
   ServedGame played = served_game(options);
   if (options.is_rank) become_rank(options, command.begin());
   require_room(options, played.scene);
+  if (is_node(options))
+    options.cell_size = cell_size_of_nodes(played.scene, options.scheme, options.cell_size);
   const auto objection = objection_to_threads(options.threads, count_of(played.scene.bodies));
   if (objection) throw std::runtime_error("--threads: " + *objection);
   return played;
@@ -85,8 +88,12 @@ ServedGame game_of(ServeOptions& options, RankCommand& command) {
 /// that look ahead, and swept regions, ask how fast other bodies are, so all must be there.
 SchemeReach reach_of_clients(const ServeOptions& options, const SharedGame& game) {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
-  const im::FilterSettings settings = filter_settings(game.scene(), options.cell_size);
-  if (options.sweep_ticks > 0 || im::make_filter(options.scheme, settings)->traits().uses_flights)
+  const im::FilterSettings settings =
+      federation_settings(game.scene(), options.scheme, options.cell_size).filter_settings;
+  const im::Traits traits = im::make_filter(options.scheme, settings)->traits();
+  // What else than places decides cannot be tried out.
+  if (options.sweep_ticks > 0 || traits.uses_flights || traits.uses_facts ||
+      !settings.plugins.empty())
     return {everywhere, everywhere};
   return reach_of(options.scheme, settings, game.extent_max());
 }
@@ -163,8 +170,21 @@ ExitStatus end_together(Node& node, ServerProcess& process) {
   return ExitStatus::may_have_split;
 }
 
+/// A process that stood still has lost its own federate too: what the other nodes made of that
+/// comes first, if they soon say it.
+std::exception_ptr why_lost(Node& node, std::exception_ptr otherwise) {
+  try {
+    for (const double until = now_s() + 1.0; now_s() < until; node.check())
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  } catch (const std::exception&) {
+    return std::current_exception();
+  }
+  return otherwise;
+}
+
 ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (!options.status.empty()) return show_status(options);
+  for (const std::string& file : options.plugins) load_plugin(file);
   const rti::FederationFile file = follow_federation_file(options);
   const std::string& federation = file.federation;
   const rti::Fom fom = load_rink_fom(file.fom);
@@ -196,6 +216,7 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
       if (!node) throw;
       lost = std::current_exception();
     }
+  if (node && (lost || !process.server().error().empty())) lost = why_lost(*node, lost);
   Json report = process.report();
   // Trace and record come before the players leave, since the hash is of this instant.
   std::optional<ServerTrace> trace = process.trace(played);

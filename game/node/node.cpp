@@ -15,15 +15,6 @@
 namespace rink::game {
 namespace {
 
-/// Nodes and peers of one scene refuse each other: they do not speak of the same things.
-Fingerprint fingerprint_of_nodes(const SharedGame& game) {
-  Fingerprint fingerprint = game.session_fingerprint();
-  StateHash keys;
-  keys.add(fingerprint.keys), keys.add(std::uint64_t{0x6e6f64657333});
-  fingerprint.keys = keys.value();
-  return fingerprint;
-}
-
 /// Free flights have the rest of their state in `game`.
 std::vector<Game::ShownBody> bodies_of(const peer::PartChange& change, const Game& game) {
   std::vector<Game::ShownBody> bodies;
@@ -101,7 +92,7 @@ void Node::meet() {
   const std::string scheme = settings_.hosting ? matches_scheme : nodes_scheme;
   const bool may_have_copies = !settings_.hosting && meeting_.survives_losses();
   if (terms().interest.scheme != scheme || terms().is_seated || number() >= terms().peer_count ||
-      (terms().is_replicated && !may_have_copies))
+      terms().is_replicated > may_have_copies)
     throw SessionError(ExitStatus::not_admitted,
                        "the first node gave terms that these nodes do not have: expected " +
                            scheme + (may_have_copies ? "" : " without standby copies"));
@@ -279,16 +270,13 @@ void Node::after_stretch(const peer::Session& session) {
   std::erase_if(change.bodies, [&](const peer::Handover::Body& body) {
     return session.peer().world().kind({body.number}) == physics::BodyKind::post;
   });
-  if (match_) {
-    feed_->expect(session.scoring(), session.peer().end());
-    return feed_->add(0, std::move(change));
-  }
+  feed_->expect(session.scoring(), session.peer().end());
+  if (match_) return feed_->add(0, std::move(change));
   change.step = feed_->count(number()) + 1;  // without recoveries
   teller_->look(session.peer(), change, session.is_over());
   for (peer::PeerNumber to = 0; to < terms().peer_count; ++to)
     if (to != number())
       say(*network_, to, NodeMessage::change, teller_->bytes_for(to, session.peer(), change));
-  feed_->expect(session.scoring(), session.peer().end());
   recovery_->finish_window(std::move(change), session);
 }
 

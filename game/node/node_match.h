@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "game/net/server/shared_play.h"
-#include "game/node/match_rounds.h"
-#include "game/node/match_words.h"
+#include "game/node/match/match_rounds.h"
+#include "game/node/match/match_words.h"
 
 namespace rink::game {
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "game/net/peer/network/greetings.h"
+#include "game/net/peer/shared_game.h"
 
 namespace rink::game {
 
@@ -18,5 +19,8 @@ Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
 /// are short.
 Terms terms_of_matches(std::uint32_t node_count, double tick_s,
                        std::uint32_t balance_windows = balance_windows_default);
+
+/// Nodes and peers of one scene refuse each other: they do not speak of the same things.
+Fingerprint fingerprint_of_nodes(const SharedGame& game);
 
 }  // namespace rink::game

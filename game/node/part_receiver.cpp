@@ -80,15 +80,22 @@ void PartReceiver::finish_window(peer::PartChange own, const peer::Division& div
   division_ = division;
   share_ = &share;
   feed_.add(own_, std::move(own));
+  std::optional<FaultyPart> first;
   for (peer::PeerNumber from = 0; from < early_.size(); ++from)
-    if (std::optional<peer::PartChange> change = std::exchange(early_[from], std::nullopt))
-      pass(from, std::move(*change));
+    if (std::optional<peer::PartChange> change = std::exchange(early_[from], std::nullopt)) try {
+        pass(from, std::move(*change));
+      } catch (const FaultyPart& fault) {
+        if (!first) first.emplace(fault);
+      }
+  if (first) throw FaultyPart(*first);
 }
 
 void PartReceiver::pass(peer::PeerNumber from, peer::PartChange change) {
   assert(change.step == received_[own_]);
-  if (const std::string fault = fault_of(from, change); !fault.empty())
+  if (const std::string fault = fault_of(from, change); !fault.empty()) {
+    --received_[from];  // whoever stands in for it may still tell
     throw FaultyPart(from, fault);
+  }
   feed_.add(from, std::move(change));
 }
 

@@ -14,7 +14,8 @@ PartTeller::PartTeller(const physics::Field& field, std::uint32_t body_count,
       listeners_(node_count, Listener{.cells = Cells::all_of(field),
                                       .coming = {},
                                       .always = {},
-                                      .is_told = std::vector<bool>(body_count)}),
+                                      .is_told = std::vector<bool>(body_count),
+                                      .is_anew = false}),
       was_own_(body_count) {
   assert(own < node_count);
 }
@@ -54,6 +55,7 @@ void PartTeller::begin_again(const peer::Peer& peer, std::uint64_t window) {
     listener.cells = Cells::all_of(field_);
     listener.coming.reset();
     listener.is_told.assign(listener.is_told.size(), false);
+    listener.is_anew = true;
   }
   take_own(peer, {});
 }
@@ -112,6 +114,7 @@ std::span<const std::uint8_t> PartTeller::bytes_for(peer::PeerNumber to, const p
   } else {
     bytes_ = written(part_for(listener, peer, change));
   }
+  listener.is_anew = false;
   const std::vector<std::uint8_t>& bytes = wants_whole ? whole_ : bytes_;
   (is_last_ ? counters_.last_bytes : counters_.bytes) += bytes.size();
   return bytes;
@@ -132,7 +135,7 @@ peer::PartChange PartTeller::part_for(Listener& to, const peer::Peer& peer,
   for (const Own& own : own_) {
     const bool was_told = to.is_told[own.body], is_told = is_wanted(to, own);
     to.is_told[own.body] = is_told;
-    if (!is_told && (was_told || own.has_come)) part.gone.push_back(own.body);
+    if (!is_told && (was_told || own.has_come || to.is_anew)) part.gone.push_back(own.body);
     if (is_told && (!was_told || own.change == Change::whole))
       part.bodies.push_back({own.body, share.state(own.body)});
     else if (is_told && own.change == Change::free_flight)

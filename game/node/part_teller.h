@@ -39,8 +39,8 @@ class PartTeller {
 
   /// Before the first window, when all know the bodies of the start.
   void begin(const peer::Peer& peer);
-  /// All go back to the end of that window: all that this node has is told anew with the next one,
-  /// to all.
+  /// All go back to the end of that window: what others want of this node is told anew with the
+  /// next one, and what they may have and do not want is taken from them.
   void begin_again(const peer::Peer& peer, std::uint64_t window);
   /// `change` is that of the own part in the window that leads to its step; with the last one all
   /// are told of everything.
@@ -58,6 +58,7 @@ class PartTeller {
     std::optional<std::pair<std::uint64_t, Cells>> coming;  ///< from that step on
     std::vector<std::uint32_t> always;                      ///< bodies, by number
     std::vector<bool> is_told;  ///< by body: of the own ones, those of which it knows all
+    bool is_anew = false;       ///< it may have bodies, told before a loss, that it does not want
   };
   struct Own {
     enum class Change : std::uint8_t { none, free_flight, whole };

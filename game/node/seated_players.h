@@ -80,6 +80,7 @@ class SeatedPlayers {
   };
   static void send(Player& player, const peer::Press& press, const Way& way, Taken& taken);
   static void send_waiting(Player& player, const Way& way, Taken& taken);
+  std::vector<Player>::iterator place_of(std::uint32_t player);
 
   const SharedGame& game_;
   std::vector<Player> players_;  ///< by number, and so by bat

@@ -87,10 +87,12 @@ class WindowFeed {
     return end == ends_.end() ? 0 : static_cast<std::uint64_t>(end - ends_.begin()) + 1;
   }
   /// All go back to the end of that stretch. What came of later ones is forgotten, of which none
-  /// was whole, and so none was taken (asserted).
-  void rewind(std::uint64_t stretch) {
-    assert(stretch < ends_.size() && taken_felt_ <= stretch);
+  /// was whole, and so none was taken: else somebody lies about its step, the answer is false, and
+  /// nothing is done. In the first session alone.
+  [[nodiscard]] bool rewind(std::uint64_t stretch) {
+    assert(stretch < ends_.size());
     const std::lock_guard lock(mutex_);
+    if (taken_felt_ > stretch || taken_ > stretch) return false;
     const double time = stretch == 0 ? 0.0 : ends_[stretch - 1];
     for (std::size_t node = 0; node < added_.size(); ++node)
       for (; added_[node] > stretch; --added_[node]) {
@@ -101,6 +103,7 @@ class WindowFeed {
       if (!is_closed_[node]) told_[node] = std::min(told_[node], time);
     while (ends_.size() > stretch + 1) ends_.pop_back(), scores_.pop_back();
     if (felt_.size() > stretch - taken_felt_) felt_.resize(stretch - taken_felt_);
+    return true;
   }
   /// Nothing more comes of this node, whose last stretch is the last that this one has played.
   void close(peer::PeerNumber node) {

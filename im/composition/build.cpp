@@ -1,113 +1,22 @@
-// Checks expressions and builds the filters that they describe.
+// Builds the filters that expressions describe.
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <charconv>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
 #include "im/composition/combination.h"
 #include "im/composition/expression.h"
+#include "im/composition/expression_queries.h"
 #include "im/composition/pair_states.h"
 #include "im/composition/schemes.h"
-#include "im/expression_fault.h"
-#include "im/matching/rejection.h"
+#include "im/pairs/pair_filter.h"
 #include "im/stages/stages.h"
-#include "im/usage.h"
 
 namespace rink::im {
 namespace {
 
 using Kind = Expression::Kind;
-
-/// A parameter, the scheme or stage that takes it, and its range.
-struct Key {
-  const char *owner, *key;
-  double low, high;
-  bool is_whole, is_needed, is_list;
-};
-constexpr double metres_max = 1e9;
-constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, false},
-                          Key{"dwell", "matches", 1.0, 100'000.0, true, true, false},
-                          Key{"grid", "cell_size", 1e-3, 1e6, false, false, false},
-                          Key{"hex", "cell_size", 1e-3, 1e6, false, false, false},
-                          Key{"hierarchical", "cell_size", 1e-3, 1e6, false, false, false},
-                          Key{"hybrid", "cell_size", 1e-3, 1e6, false, false, false},
-                          Key{"hysteresis", "margin", 0.0, metres_max, false, true, false},
-                          Key{"priority", "budget", 1.0, metres_max, true, false, false},
-                          Key{"strips", "cell_size", 1e-3, 1e6, false, false, false},
-                          Key{"swept", "disc", 0.0, 1.0, true, false, false},
-                          Key{"swept", "drag", 0.0, 1e6, false, false, false},
-                          Key{"swept", "horizon", 0.0, 1e6, false, true, false},
-                          Key{"tiers", "at", 1e-6, 1.0, false, true, true}};
-constexpr std::array stages{"dwell", "hysteresis", "priority", "swept", "tiers"};
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-/// The number with six decimals at most if these are exact.
-std::string shown(double number) {
-  std::string text = std::to_string(number);
-  if (std::stod(text) != number) {
-    std::array<char, 32> all;
-    char* const end = all.data() + all.size();
-    return {all.data(), std::to_chars(all.data(), end, number, std::chars_format::general, 9).ptr};
-  }
-  text.erase(text.find_last_not_of('0') + 1);
-  return text.ends_with('.') ? text.substr(0, text.size() - 1) : text;
-}
-
-std::string judge_parameter(const Expression& owner, std::size_t i) {
-  const Expression::Parameter& own = owner.parameters[i];
-  std::vector<std::string> known;
-  for (const Key& key : keys) {
-    if (owner.name != key.owner) continue;
-    known.emplace_back(key.key);
-    if (own.key != key.key) continue;
-    if (!(own.value >= key.low && own.value <= key.high) ||
-        (key.is_whole && own.value != std::floor(own.value)))
-      return owner.name + ": " + own.key + " = " + shown(own.value) + " is not " +
-             (key.is_whole ? "a whole number" : "a number") + " from " + shown(key.low) + " to " +
-             shown(key.high);
-    for (std::size_t k = 0; k < i; ++k)
-      if (owner.parameters[k].key == own.key &&
-          !(key.is_list && owner.parameters[k].value < own.value))
-        return owner.name + ": " + own.key + (key.is_list ? " must ascend" : " is given twice");
-    return {};
-  }
-  return owner.name + " has no parameter " + own.key +
-         (known.empty() ? ", nor any other" : "; it has " + listed(known));
-}
-
-std::string judge_parameters(const Expression& owner) {
-  for (std::size_t i = 0; i < owner.parameters.size(); ++i)
-    if (std::string complaint = judge_parameter(owner, i); !complaint.empty()) return complaint;
-  for (const Key& key : keys)
-    if (owner.name == key.owner && key.is_needed &&
-        std::isnan(owner.parameter(key.key, std::numeric_limits<double>::quiet_NaN())))
-      return owner.name + " needs " + key.key + "=NUMBER";
-  if (owner.name == "tiers" && owner.parameters.size() >= PairStates::filter_max)
-    return "tiers: more than 15 of them";
-  return {};
-}
-
-/// A part that a combination takes as one operand.
-bool is_operand(const Expression& expression) {
-  return expression.kind == Kind::scheme || expression.kind == Kind::stage;
-}
-
-std::size_t operand_count(const Expression& expression) {
-  if (is_operand(expression)) return 1;
-  std::size_t count = 0;
-  for (const Expression& operand : expression.operands) count += operand_count(operand);
-  return count;
-}
 
 /// True if its decision about a pair depends on their places.
 bool looks_at_places(const Expression& expression) {
@@ -164,6 +73,15 @@ const Expression* swept_in(const Expression& expression) {
   return nullptr;
 }
 
+std::unique_ptr<PairFunction> build_function(const Expression& owner,
+                                             const FilterSettings& settings) {
+  if (owner.is_plugin) return make_plugin_function(*plugin_of(owner, settings));
+  ConditionFault fault;
+  auto function = compile_condition(owner.function, wanted_of(owner), fault);
+  assert(function != nullptr);  // judged texts compile
+  return function;
+}
+
 std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSettings& settings) {
   assert(stage.kind == Kind::stage && stage.operands.size() == 1);
   const Expression& inner = stage.operands.front();
@@ -179,6 +97,11 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
                       stage.parameter("drag", settings.drag), stage.parameter("disc", 0.0) != 0.0);
   if (stage.name == "priority")
     return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
+  if (is_rank(stage))
+    return make_rank(build_inner(),
+                     stage.name == "top" ? build_function(stage, settings) : make_nearness(),
+                     static_cast<std::uint32_t>(stage.parameter("k", 1.0)),
+                     stage.name == "top" ? "top" : "nearest");
   assert(stage.name == "tiers");
   // Rings measure present places of flights if the inner filter uses flights.
   const Expression* const swept = swept_in(inner);
@@ -194,136 +117,21 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   return make_tiers(build_inner(), std::move(rings), std::move(fractions));
 }
 
-/// True if `is_one` holds for a scheme in the expression `text`.
-template <class IsOne>
-bool has_scheme(const std::string& text, const IsOne& is_one) {
-  const auto search = [&is_one](const auto& self, const Expression& expression) -> bool {
-    if (expression.kind == Kind::scheme && is_one(expression)) return true;
-    return std::any_of(expression.operands.begin(), expression.operands.end(),
-                       [&](const Expression& operand) { return self(self, operand); });
-  };
-  Expression expression;
-  return read_expression(text, expression).empty() && search(search, expression);
-}
-
-std::string judge_settings(const FilterSettings& settings) {
-  if (const auto rejection = check_world(settings.world)) return describe(*rejection);
-  if (!(settings.cell_size >= 0.0) || !std::isfinite(settings.cell_size))
-    return describe({Fault::bad_cell_size, Subject::cells});
-  if (!(settings.half_angle_deg >= 0.0 && settings.half_angle_deg <= 180.0))
-    return "the half angle of a view is not a number from 0 to 180";
-  if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag))
-    return "the drag of flights is not a finite number from 0";
-  for (std::size_t i = 0; i < settings.posts.size(); ++i) {
-    const Disc& post = settings.posts[i];
-    if (!std::isfinite(post.x) || !std::isfinite(post.y) || !std::isfinite(post.radius))
-      return "post " + std::to_string(i) + " is not finite: a number is infinite or not a number";
-    if (post.radius < 0.0) return "post " + std::to_string(i) + " has a negative radius";
-  }
-  return {};
-}
-
-/// The fault of `expression` itself, whose operands are valid.
-std::string judge_own(const Expression& expression) {
-  const auto names = expression.kind == Kind::stage ? stage_names() : filter_names();
-  if (is_operand(expression)) {
-    if (std::find(names.begin(), names.end(), expression.name) == names.end())
-      return std::string("no ") + (expression.kind == Kind::stage ? "stage" : "scheme") +
-             " is called '" + expression.name + "'; there are " + listed(names);
-    if (std::string complaint = judge_parameters(expression); !complaint.empty()) return complaint;
-  } else if (operand_count(expression) >= PairStates::filter_max) {
-    return "more than 15 schemes in one combination";
-  }
-  for (const Expression& operand : expression.operands) {
-    const bool is_last =
-        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "priority");
-    const bool is_tiers_in_priority = expression.name == "priority" && operand.name == "tiers";
-    if (is_last && !is_tiers_in_priority)
-      return "after " + operand.name + " nothing may follow" +
-             (operand.name == "tiers" ? " but priority" : "") +
-             ": it decides more than whether a pair is relevant";
-  }
-  return {};
-}
-
-/// The innermost stage that is first in the text, or nothing.
-const Expression* stage_in(const Expression& expression) {
-  for (const Expression& operand : expression.operands)
-    if (const Expression* const found = stage_in(operand)) return found;
-  return expression.kind == Kind::stage ? &expression : nullptr;
-}
-
-std::string why_not_momentary(const Expression& stage) {
-  const bool depends_on_past = stage.name == "hysteresis" || stage.name == "dwell";
-  return stage.name +
-         (depends_on_past ? " depends on what was relevant before"
-          : stage.name == "swept"
-              ? " depends on predicted flights"
-              : " decides how often an entity is updated, not whether it is relevant") +
-         ": only schemes decide relevance at one instant";
-}
-
 }  // namespace
 
-std::string judge_expression(const Expression& expression, Expression::Place* place) {
-  for (const Expression& operand : expression.operands)
-    if (std::string complaint = judge_expression(operand, place); !complaint.empty())
-      return complaint;
-  if (place) *place = expression.place;
-  return judge_own(expression);
-}
-
 std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterSettings& settings) {
-  assert(judge_own(expression).empty() && judge_settings(settings).empty());
+  assert(judge_expression(expression).empty());
   if (expression.kind == Kind::stage) return build_stage(expression, settings);
   if (expression.kind != Kind::scheme) return build_combination(expression, settings);
+  if (is_condition(expression.name))
+    return make_pair_filter(settings, build_function(expression, settings),
+                            expression.name == "when" ? PairScope::overlapping : PairScope::all);
   FilterSettings own = settings;
   own.cell_size = expression.parameter("cell_size", settings.cell_size);
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
   auto scheme = make_scheme(expression.name, own);
   assert(scheme != nullptr);  // judged names are registered
   return scheme;
-}
-
-std::string usage_of(const std::string& name) {
-  std::string parameters;
-  for (const Key& key : keys) {
-    if (name != key.owner) continue;
-    const std::string one = std::string(key.key) + "=" + shown(key.low) + ".." + shown(key.high) +
-                            (key.is_list ? " ..." : "");
-    parameters += (parameters.empty() ? "" : " ") + (key.is_needed ? one : "[" + one + "]");
-  }
-  return parameters.empty() ? name : name + "(" + parameters + ")";
-}
-
-std::vector<std::string> stage_names() { return {stages.begin(), stages.end()}; }
-
-std::optional<std::string> complaint_about(const std::string& text,
-                                           const FilterSettings& settings) {
-  Expression expression;
-  std::string complaint = read_expression(text, expression);
-  if (complaint.empty()) complaint = judge_expression(expression);
-  if (complaint.empty()) complaint = judge_settings(settings);
-  return complaint.empty() ? std::nullopt : std::optional(complaint);
-}
-
-std::optional<ExpressionFault> fault_in(const std::string& text) {
-  Expression expression;
-  Expression::Place place;
-  std::string complaint = read_expression(text, expression, &place);
-  if (complaint.empty()) complaint = judge_expression(expression, &place);
-  return complaint.empty() ? std::nullopt
-                           : std::optional(ExpressionFault{complaint, place.character + 1});
-}
-
-std::optional<ExpressionFault> fault_in_momentary(const std::string& text) {
-  if (auto fault = fault_in(text)) return fault;
-  Expression expression;
-  read_expression(text, expression);
-  const Expression* const stage = stage_in(expression);
-  return stage
-             ? std::optional(ExpressionFault{why_not_momentary(*stage), stage->place.character + 1})
-             : std::nullopt;
 }
 
 std::unique_ptr<Filter> make_filter(const std::string& text, const FilterSettings& settings) {
@@ -339,23 +147,17 @@ bool are_equivalent(const std::string& text, const std::string& other) {
          one == another;
 }
 
-bool takes_cell_size(const std::string& text) {
-  return has_scheme(text, [](const Expression& scheme) {
-    const bool has_cells = std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
-      return scheme.name == key.owner && std::string_view(key.key) == "cell_size";
-    });
-    return has_cells &&
-           std::isnan(scheme.parameter("cell_size", std::numeric_limits<double>::quiet_NaN()));
-  });
-}
-
 bool names_scheme(const std::string& text, const std::string& name) {
   return has_scheme(text, [&name](const Expression& scheme) { return scheme.name == name; });
 }
 
 std::string file_name_of(const std::string& expression) {
   std::string name;
-  for (const char c : expression) name += c == ' ' ? '_' : c == '(' ? '[' : c == ')' ? ']' : c;
+  constexpr std::string_view of_shells = "\"'<>*/|&!,%";
+  for (const char c : expression)
+    if (of_shells.find(c) != std::string_view::npos)
+      name += '%' + hexadecimal(static_cast<std::uint64_t>(c)).substr(14);
+    else name += c == ' ' ? '_' : c == '(' ? '[' : c == ')' ? ']' : c;
   constexpr std::size_t size_max = 100;  // a file's name has 255, and more belongs to it
   if (name.size() <= size_max) return name;
   return name.substr(0, size_max - 17) + "-" + hexadecimal(hash_of(name));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "im/basics/letters.h"
+
 namespace rink::im {
 namespace {
 
@@ -17,8 +19,7 @@ constexpr int depth_max = 32;
 constexpr int stages_max = 8;
 constexpr std::size_t expression_size_max = 4000;
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_quote(char c) { return c == '"' || c == '\''; }
 
 class Reader {
  public:
@@ -43,6 +44,12 @@ class Reader {
                  ? is_letter(c) || is_digit(c)
                  : is_number_ && (is_digit(c) || c == '.' || c == 'e' || c == '-' || c == '+');
     };
+    if (length > 0 && is_quote(rest_.front())) {
+      const std::size_t end = rest_.find(rest_.front(), 1);
+      length = end == std::string_view::npos ? 1 : end + 1;  // one alone stands for nothing
+      token_ = rest_.substr(0, length);
+      return rest_.remove_prefix(length);
+    }
     is_number_ = length > 0 && (is_digit(rest_.front()) || rest_.front() == '-' ||
                                 rest_.front() == '.' || rest_.front() == '+');
     while (length > 0 && length < rest_.size() && is_part(rest_[length])) ++length;
@@ -122,9 +129,28 @@ class Reader {
         token_ == "not" || token_ == "with")
       complain(expected);
     next();
-    if (!take("(")) return result;
-    while (complaint_.empty() && !take(")")) result.parameters.push_back(parameter());
+    if (kind == Expression::Kind::scheme && is_condition(result.name)) {
+      function_of(result);
+      return result;
+    }
+    if (take("("))
+      while (complaint_.empty() && !take(")")) result.parameters.push_back(parameter());
+    if (kind == Expression::Kind::stage && take("by")) function_of(result);
     return result;
+  }
+  void function_of(Expression& owner) {
+    owner.function_place = here();
+    owner.is_plugin = !token_.empty() && is_letter(token_.front());
+    if (!owner.is_plugin && token_.size() < 2) {
+      if (!token_.empty() && is_quote(token_.front()))
+        return complain("expected the quotation mark that ends what begins");
+      return complain("expected a text in quotation marks, or the name of a plugin,");
+    }
+    if (!owner.is_plugin && !is_quote(token_.front()))
+      return complain("expected a text in quotation marks, or the name of a plugin,");
+    owner.function = owner.is_plugin ? token_ : token_.substr(1, token_.size() - 2);
+    if (!owner.is_plugin) ++owner.function_place.character;
+    next();
   }
   Expression::Parameter parameter() {
     Expression::Parameter result{std::string(token_), 0.0};
@@ -148,6 +174,8 @@ class Reader {
 };
 
 }  // namespace
+
+bool is_condition(std::string_view name) { return name == "when" || name == "anywhere"; }
 
 double Expression::parameter(std::string_view key, double otherwise) const {
   for (const Parameter& each : parameters)

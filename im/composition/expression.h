@@ -14,9 +14,15 @@ namespace rink::im {
 
 /// A composed scheme as a tree.
 ///
-///     expression = alternative { "with" stage }        stage, scheme = name [ "(" { key "=" number
-///     } ")" ] alternative = conjunction { "or" conjunction }   conjunction = term { "and" term }
-///     term = "not" term | "(" expression ")" | scheme
+///     expression = alternative { "with" stage }
+///     alternative = conjunction { "or" conjunction }
+///     conjunction = term { "and" term }
+///     term = "not" term | "(" expression ")" | condition | scheme
+///     condition = ("when" | "anywhere") function
+///     scheme = named
+///     stage = named [ "by" function ]
+///     named = name [ "(" { key "=" number } ")" ]
+///     function = quoted text | name of a plugin
 struct Expression {
   enum class Kind { scheme, stage, conjunction, alternative, negation };
   struct Parameter {
@@ -35,12 +41,18 @@ struct Expression {
   std::vector<Parameter> parameters;  ///< of it, as written
   std::vector<Expression> operands;   ///< one of a stage and of `not`; two of `and` and `or`
   Place place{};
+  std::string function{};  ///< after `when`, `anywhere` and `by`; empty if there is none
+  bool is_plugin = false;  ///< `function` is a plugin's name, else a text
+  Place function_place{};
 
   friend bool operator==(const Expression&, const Expression&) = default;
 
   /// That of `key`, or `otherwise`.
   double parameter(std::string_view key, double otherwise) const;
 };
+
+/// True of `when` and `anywhere`, which a function follows.
+bool is_condition(std::string_view name);
 
 /// Reads `text` into `expression`. Returns its fault, naming the faulty part, and sets `place` to
 /// where that begins; an empty text if there is none.

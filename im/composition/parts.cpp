@@ -61,6 +61,12 @@ void Parts::set_subscriber_flight(Subscriber subscriber, const Flight& flight) {
 void Parts::set_time(double now) {
   for (const auto& part : parts_) part->set_time(now);
 }
+void Parts::set_entity_facts(Entity entity, const Facts& facts) {
+  for (const auto& part : parts_) part->set_entity_facts(entity, facts);
+}
+void Parts::set_subscriber_facts(Subscriber subscriber, const Facts& facts) {
+  for (const auto& part : parts_) part->set_subscriber_facts(subscriber, facts);
+}
 void Parts::share_with(Worker* worker) {
   for (const auto& part : parts_) part->share_with(worker);
 }
@@ -70,7 +76,8 @@ Traits Parts::traits() const {
   for (const auto& part : parts_) {
     const Traits own = part->traits();
     all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings,
-        all.uses_flights |= own.uses_flights, all.decides_tiers |= own.decides_tiers;
+        all.uses_flights |= own.uses_flights, all.decides_tiers |= own.decides_tiers,
+        all.uses_facts |= own.uses_facts, all.uses_time |= own.uses_time;
   }
   return all;
 }

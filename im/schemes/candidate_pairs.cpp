@@ -74,6 +74,23 @@ void CandidatePairs::touch_near(Entity entity) {
   for (const Subscriber subscriber : subscribers_[entity].span()) touch(subscriber);
 }
 
+void CandidatePairs::decide(Subscriber subscriber, std::size_t i, bool is, float rests_until) {
+  assert(subscriber < entries_.size() && i < entries_[subscriber].size());
+  Entry& entry = entries_[subscriber][i];
+  const Entity entity = entity_of(entry);
+  if (is != is_relevant(entry))
+    decided_.push_back({subscriber, entity, is ? Transition::entered : Transition::left});
+  entry = {entity << 1 | (is ? 1u : 0u), rests_until};
+}
+
+void CandidatePairs::report(Buffer<Change>& changes) {
+  const std::size_t before = changes.size();
+  changes.resize(before + left_.size() + decided_.size());
+  std::merge(left_.data(), left_.data() + left_.size(), decided_.data(),
+             decided_.data() + decided_.size(), changes.data() + before);
+  left_.clear(), decided_.clear();
+}
+
 void CandidatePairs::check() const {
   // Sums of a function of each pair, which the same pairs have in any order.
   const auto mark = [](std::uint64_t subscriber, std::uint64_t entity) {

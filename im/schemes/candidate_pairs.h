@@ -18,6 +18,12 @@ namespace rink::im {
 
 /// Memory: 12 bytes per pair and half as much in reserve. Lists keep theirs when pairs go.
 class CandidatePairs {
+  /// An entity and, in the lowest bit, whether it is relevant.
+  struct Entry {
+    std::uint32_t key;
+    float rests_until;
+  };
+
  public:
   /// Forget the pairs of an id.
   void remove_entity(Entity entity);
@@ -37,16 +43,35 @@ class CandidatePairs {
   template <class Decide>
   void review(std::span<const Change> box_changes, const Decide& decide, Buffer<Change>& changes);
 
+  /// The pairs of one subscriber, by ascending entity. Valid until the next `visit_touched`.
+  class List {
+   public:
+    std::size_t size() const { return entries_->size(); }
+    Entity entity(std::size_t i) const { return entity_of((*entries_)[i]); }
+    bool is_relevant(std::size_t i) const { return CandidatePairs::is_relevant((*entries_)[i]); }
+    float rests_until(std::size_t i) const { return (*entries_)[i].rests_until; }
+
+   private:
+    friend class CandidatePairs;
+    explicit List(const Buffer<Entry>& entries) : entries_(&entries) {}
+    const Buffer<Entry>* entries_;
+  };
+
+  /// For those who decide about many pairs at once: applies the ordered changes of the boxes and
+  /// calls `visit(subscriber, list)` for each touched subscriber in ascending order, then or later
+  /// to be followed by calls of `decide`, and at last by `report`.
+  template <class Visit>
+  void visit_touched(std::span<const Change> box_changes, const Visit& visit);
+  /// Keeps the decision about the i-th pair in the list of `subscriber`; pairs come in order.
+  void decide(Subscriber subscriber, std::size_t i, bool is_relevant, float rests_until);
+  /// Appends all changes since the last report to `changes`, ordered.
+  void report(Buffer<Change>& changes);
+
   std::size_t bytes() const;
   /// Asserts that lists are in order and that both directions hold the same pairs.
   void check() const;
 
  private:
-  /// An entity and, in the lowest bit, whether it is relevant.
-  struct Entry {
-    std::uint32_t key;
-    float rests_until;
-  };
   static Entity entity_of(Entry entry) { return entry.key >> 1; }
   static bool is_relevant(Entry entry) { return (entry.key & 1u) != 0; }
 
@@ -59,6 +84,7 @@ class CandidatePairs {
   std::vector<Buffer<Entry>> entries_;           // by subscriber, ascending
   std::vector<Buffer<Subscriber>> subscribers_;  // by entity, in no order
   Buffer<Entry> merged_;
+  Buffer<Change> left_, decided_;
   Buffer<Subscriber> touched_;
   std::vector<bool> is_touched_;
 };
@@ -71,6 +97,21 @@ void CandidatePairs::review(std::span<const Change> box_changes, const Decide& d
   for (const Subscriber subscriber : touched_.span()) {
     box_changes = box_changes.subspan(merge(subscriber, box_changes, decide, changes));
     is_touched_[subscriber] = false;
+  }
+  assert(box_changes.empty());  // they were ordered, and each was of somebody touched
+  touched_.clear();
+  if constexpr (checks_whole_structures) check();
+}
+
+template <class Visit>
+void CandidatePairs::visit_touched(std::span<const Change> box_changes, const Visit& visit) {
+  for (const Change& change : box_changes) touch(change.subscriber);
+  std::sort(touched_.data(), touched_.data() + touched_.size());
+  const auto keep = [](Subscriber, Entity, bool was) { return was; };
+  for (const Subscriber subscriber : touched_.span()) {
+    box_changes = box_changes.subspan(merge(subscriber, box_changes, keep, left_));
+    is_touched_[subscriber] = false;
+    visit(subscriber, List(entries_[subscriber]));
   }
   assert(box_changes.empty());  // they were ordered, and each was of somebody touched
   touched_.clear();

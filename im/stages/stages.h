@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "im/filter.h"
+#include "im/pairs/pair_function.h"
 
 namespace rink::im {
 
@@ -29,6 +30,12 @@ std::unique_ptr<Filter> make_tiers(std::unique_ptr<Filter> inner,
 /// subscription.
 std::unique_ptr<Filter> make_swept(std::unique_ptr<Filter> inner, double horizon, double drag,
                                    bool is_disc);
+
+/// Of the relevant entities of each subscriber only the `count` with the highest scores stay so; of
+/// equal scores the smaller id is first. `name` is that of the stage, for its counts.
+std::unique_ptr<Filter> make_rank(std::unique_ptr<Filter> inner,
+                                  std::unique_ptr<PairFunction> score, std::uint32_t count,
+                                  const char* name);
 
 /// Orders relevant entities by urgency (im/stages/priority_order.h), for senders of at most
 /// `budget` bytes to a subscriber between two matches; 0: no limit.

@@ -269,7 +269,7 @@ game::ExitStatus play(const Options& options) {
   written[game::report::histogram_ns_per_record.key] = histogram_ns;
   const game::ExitStatus result = status(crowd, options.patience_s);
   crowd.resign();
-  if (const auto trace = crowd.trace()) loadgen::write_trace(options.trace, *trace);
+  if (const auto trace = crowd.trace()) game::write_trace(options.trace, *trace);
   if (!options.report.empty()) {
     game::write_file(options.report, written.dump(2));
   } else if (crowd.has_started()) {

@@ -1,6 +1,7 @@
 // Defines the flags of rink compare and its help text.
 #include "loadgen/apps/compare_flags.h"
 
+#include "game/apps/plugin_flag.h"
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/sequential.h"
 #include "rti/schemes.h"
@@ -35,6 +36,8 @@ std::string schemes_and_stages() {
   };
   return lines("\nSchemes, which and, or, not and parentheses combine:\n",
                rink::im::filter_names()) +
+         "  when \"CONDITION\"  anywhere \"CONDITION\", as in when \"distance < 4 and team == "
+         "mine\"\n" +
          lines(
              "\nStages, each of which may follow any scheme after with, as in \"aura and not sight "
              "with "
@@ -126,6 +129,7 @@ void add_options(game::Flags& flags, CompareOptions& options) {
       },
       "add replications until the 95 % interval of every row's payload is at most so wide, such as "
       "5% of the mean from its middle to either end (docs/experiments.md)");
+  game::add_plugin_option(flags, options.plugins);
   flags.option("--programs", options.programs,
                "folder of rink-serve, rink-bots and rink-peer (default: that of rink-compare)");
   add_saturate_options(flags, options.saturate);

@@ -32,7 +32,7 @@ struct CompareOptions {
   std::string experiment;
   std::string out, programs, from, trace;
   bool may_replace = false, is_resumed = false, is_dry_run = false, keeps_traces = false;
-  std::vector<std::string> assertions;
+  std::vector<std::string> assertions, plugins;
   std::uint32_t seeds = 0;
   double until_width = 0.0;  ///< a fraction; 0: run the seeds and be done
   SaturateOptions saturate;

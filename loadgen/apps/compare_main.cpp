@@ -9,6 +9,7 @@
 
 #include "game/apps/command.h"
 #include "game/net/interrupt.h"
+#include "game/net/plugins.h"
 #include "game/process/process.h"
 #include "game/version/version.h"
 #include "loadgen/apps/compare_flags.h"
@@ -351,7 +352,7 @@ bool is(const std::exception& error) {
 int status_after(const std::exception& error) {
   if (is<BaselineError>(error)) return no_baseline;
   if (is<RelevanceError>(error)) return no_relevance;
-  if (is<ExperimentError>(error)) return bad_usage;
+  if (is<ExperimentError>(error) || is<rink::game::PluginError>(error)) return bad_usage;
   if (is<ReportFolderError>(error)) return bad_report_folder;
   return is<OutputError>(error) ? output_failed : nothing_measured;
 }
@@ -369,6 +370,7 @@ int main(int count, char** words) {
   add_options(flags, options);
   const auto run = [&]() -> int {
     if (options.until_width > 0.0 && options.seeds == 0) options.seeds = replications_max;
+    for (const std::string& file : options.plugins) rink::game::load_plugin(file);
     if (!options.trace.empty()) return trace(options.trace);
     return compare(options, std::vector<std::string>(words, words + count));
   };

@@ -8,6 +8,7 @@
 
 #include "game/model/listed.h"
 #include "game/net/peer/network/greetings.h"
+#include "game/net/plugins.h"
 #include "game/net/relevant_kinds.h"
 #include "game/players/player_kinds.h"
 #include "game/replication/update_policy.h"
@@ -44,7 +45,10 @@ void read_matrix(ExperimentReader& reader, Experiment& result, const Vocabulary&
   reader.choose("modes", result.modes, vocabulary.modes);
   reader.judged(
       "schemes", result.schemes,
-      [](const std::string& text) { return im::complaint_about(text, {}); }, im::are_equivalent);
+      [](const std::string& text) {
+        return im::complaint_about(text, {.plugins = game::loaded_plugins()});
+      },
+      im::are_equivalent);
   reader.choose("policies", result.policies, vocabulary.policies);
   reader.whole_numbers("clients", result.clients, 1, 100'000);
   reader.whole_numbers("pucks", result.pucks, 0, 1'000'000);

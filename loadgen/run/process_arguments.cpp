@@ -1,6 +1,7 @@
 // Flags of rink serve and rink bots.
 #include "loadgen/run/process_arguments.h"
 
+#include "game/net/plugins.h"
 #include "game/players/player_kinds.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment/parameter.h"
@@ -30,6 +31,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   add("--port", "0");
   add("--transport", to_string(experiment.transport));
   add("--scheme", cell.scheme);
+  for (const std::string& file : game::plugin_files()) add("--plugin", file);
   if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
   if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
   if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));

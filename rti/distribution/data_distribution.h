@@ -131,6 +131,10 @@ class DataDistribution {
   /// until it is set again or a region is committed.
   virtual void set_federate_heading(std::uint32_t /*federate*/, const im::Heading&) {}
   virtual void set_flight(ObjectSlot, const im::Flight&) {}
+  /// What conditions may ask. Those of an object hold while its region is committed, those of a
+  /// federate until it is removed.
+  virtual void set_facts(ObjectSlot, const im::Facts&) {}
+  virtual void set_federate_facts(std::uint32_t /*federate*/, const im::Facts&) {}
   virtual void set_time(double /*now*/) {}
 
   /// For filters that decide tiers or have a budget: fills `turns->waiting` with the objects that

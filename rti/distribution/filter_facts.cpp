@@ -16,9 +16,20 @@ bool FilterFacts::set_heading(std::uint32_t federate, const im::Heading& heading
   return true;
 }
 
+bool FilterFacts::set_federate_facts(std::uint32_t federate, const im::Facts& facts) {
+  if (!traits_.uses_facts || federates_[federate].facts == facts) return false;
+  federates_[federate].facts = facts;
+  return true;
+}
+
+void FilterFacts::inform_facts(std::uint32_t federate, im::Subscriber subscriber) const {
+  if (traits_.uses_facts) filter_.set_subscriber_facts(subscriber, federates_[federate].facts);
+}
+
 void FilterFacts::inform_subscriber(std::uint32_t federate, im::Subscriber subscriber) const {
   if (traits_.uses_roles) filter_.set_subscriber_role(subscriber, federates_[federate].role);
   inform_heading(federate, subscriber);
+  inform_facts(federate, subscriber);
 }
 
 void FilterFacts::inform_heading(std::uint32_t federate, im::Subscriber subscriber) const {
@@ -48,6 +59,11 @@ void FilterFacts::inform_entity(const DistributedRegion& region) const {
 void FilterFacts::set_flight(const DistributedRegion& region, const im::Flight& flight) const {
   if (traits_.uses_flights && region.is_placed && region.is_committed)
     filter_.set_flight(region.entity, flight);
+}
+
+void FilterFacts::set_facts(const DistributedRegion& region, const im::Facts& facts) const {
+  if (traits_.uses_facts && region.is_placed && region.is_committed)
+    filter_.set_entity_facts(region.entity, facts);
 }
 
 }  // namespace rink::rti

@@ -19,6 +19,7 @@ class FilterFacts {
 
   bool are_roles_used() const { return traits_.uses_roles; }
   bool are_flights_used() const { return traits_.uses_flights; }
+  bool are_facts_used() const { return traits_.uses_facts; }
 
   void add_federate(std::uint32_t federate);
   const im::Role& role_of(std::uint32_t federate) const { return federates_[federate].role; }
@@ -27,8 +28,11 @@ class FilterFacts {
   }
   /// False if the federate has that heading already.
   bool set_heading(std::uint32_t federate, const im::Heading& heading);
-  /// Passes a federate's role and heading for one of its subscriptions.
+  /// False if the federate has those facts already, or the filter ignores them.
+  bool set_federate_facts(std::uint32_t federate, const im::Facts& facts);
+  /// Passes a federate's role, heading and facts for one of its subscriptions.
   void inform_subscriber(std::uint32_t federate, im::Subscriber subscriber) const;
+  void inform_facts(std::uint32_t federate, im::Subscriber subscriber) const;
   /// Passes the heading alone.
   void inform_heading(std::uint32_t federate, im::Subscriber subscriber) const;
 
@@ -43,8 +47,9 @@ class FilterFacts {
   /// Passes what is known of the objects that use the region.
   void inform_entity(const DistributedRegion& region) const;
   void set_flight(const DistributedRegion& region, const im::Flight& flight) const;
+  void set_facts(const DistributedRegion& region, const im::Facts& facts) const;
   void set_time(double now) const {
-    if (traits_.uses_flights) filter_.set_time(now);
+    if (traits_.uses_flights || traits_.uses_time) filter_.set_time(now);
   }
 
   /// True if the object and the federate have the same owner.
@@ -57,6 +62,7 @@ class FilterFacts {
   struct Known {
     im::Role role;
     im::Heading heading;
+    im::Facts facts;
   };
 
   im::Filter& filter_;

@@ -193,6 +193,16 @@ void Interest::set_flight(ObjectSlot slot, const im::Flight& flight) {
     facts_.set_flight(regions_[each.region], flight);
 }
 
+void Interest::set_facts(ObjectSlot slot, const im::Facts& facts) {
+  if (!facts_.are_facts_used()) return;
+  for (const Association& each : regions_.associations_of(slot))
+    facts_.set_facts(regions_[each.region], facts);
+}
+
+void Interest::set_federate_facts(std::uint32_t federate, const im::Facts& facts) {
+  if (facts_.set_federate_facts(federate, facts)) subscriptions_.inform_facts(federate);
+}
+
 void Interest::share_out(std::uint32_t federate, const BytesDue& bytes_due) {
   planner_.share_out(scopes_.of(federate), bytes_due);
 }

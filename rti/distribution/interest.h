@@ -69,6 +69,8 @@ class Interest : public DataDistribution {
   void set_federate_role(std::uint32_t federate, const im::Role& role) override;
   void set_federate_heading(std::uint32_t federate, const im::Heading& heading) override;
   void set_flight(ObjectSlot slot, const im::Flight& flight) override;
+  void set_facts(ObjectSlot slot, const im::Facts& facts) override;
+  void set_federate_facts(std::uint32_t federate, const im::Facts& facts) override;
   void set_time(double now) override { facts_.set_time(now); }
   void plan_turns(std::uint32_t federate) override { planner_.plan_turns(scopes_.of(federate)); }
   bool has_budget() const override { return planner_.has_budget(); }

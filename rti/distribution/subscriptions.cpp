@@ -197,6 +197,11 @@ void Subscriptions::inform_headings(std::uint32_t federate) {
     if (each.is_placed) facts_.inform_heading(federate, each.subscriber);
 }
 
+void Subscriptions::inform_facts(std::uint32_t federate) {
+  for (const Regional& each : federates_[federate]->regionals)
+    if (each.is_placed) facts_.inform_facts(federate, each.subscriber);
+}
+
 void Subscriptions::take(const im::Change& change, bool decides_tiers) {
   std::vector<Regional>& regionals = federates_[subscribers_[change.subscriber]]->regionals;
   const auto regional = std::ranges::find_if(regionals, [&](const Regional& each) {

@@ -96,6 +96,7 @@ class Subscriptions {
   /// A federate's role or heading has changed: passes it to the filter for all its subscriptions.
   void inform_filter(std::uint32_t federate);
   void inform_headings(std::uint32_t federate);
+  void inform_facts(std::uint32_t federate);
 
   /// The federate whose subscription the filter calls `subscriber`.
   std::uint32_t federate_of(im::Subscriber subscriber) const {

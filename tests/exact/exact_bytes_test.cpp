@@ -5,7 +5,7 @@
 
 #include "tests/exact/exact_rink.h"
 
-namespace rink::game::test {
+namespace rink::game {
 namespace {
 
 /// Payload [bytes] per client and second with the RTI's frames, and with 36 B of headers a packet.
@@ -48,7 +48,7 @@ Rate measured(double rate_hz, double view_fraction, double seconds) {
 TEST(ExactBytes, WhoSeesAllOfTheCrowdIsSentLessThanFourKilobytesASecond) {
   const Rate rate = measured(60.0, 1.0, 4.0);
   EXPECT_LT(rate.wire, 4000.0);
-  EXPECT_EQ(rate.told, 0.0);
+  EXPECT_LT(rate.told, 3.0) << "face-offs alone";
 }
 
 TEST(ExactBytes, AViewOfATwentiethIsSentLessThanTwoAndAHalf) {
@@ -57,4 +57,4 @@ TEST(ExactBytes, AViewOfATwentiethIsSentLessThanTwoAndAHalf) {
 }
 
 }  // namespace
-}  // namespace rink::game::test
+}  // namespace rink::game

@@ -14,7 +14,7 @@
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
 
-namespace rink::game::test {
+namespace rink::game {
 
 /// How many bodies were compared over all clients and ticks, and how many were not computed, being
 /// held by somebody unknown.
@@ -84,4 +84,4 @@ inline void follow(LockstepRink& rink, int ticks, const std::string& where, Comp
   }
 }
 
-}  // namespace rink::game::test
+}  // namespace rink::game

@@ -5,7 +5,7 @@
 #include "game/replication/trajectory.h"
 #include "tests/exact/exact_rink.h"
 
-namespace rink::game::test {
+namespace rink::game {
 namespace {
 
 LockstepSettings settings_for(const Scene& scene, std::uint64_t seed, double seconds,
@@ -145,6 +145,33 @@ TEST(Exact, AClientThatLooksAheadTakesItBackWhenNewsCome) {
   EXPECT_EQ(counted(rink).wrong_hashes, 0u);
 }
 
+TEST(Exact, WhoLooksBackShowsTheLastTickAgain) {
+  const Scene scene = small_crowd();
+  LockstepRink rink(scene, settings_for(scene, 4, 4.0, 0.3));
+  rink.start();
+  std::size_t moved = 0;
+  for (int tick = 0; tick < 50; ++tick) {
+    Compared compared;
+    follow(rink, 1, "back", compared);
+    for (std::size_t k = 0; k < rink.client_count(); ++k) {
+      Client& client = rink.client(k);
+      const std::vector<EntityReplica> before(client.replicas().entities().begin(),
+                                              client.replicas().entities().end());
+      client.computed()->look_ahead(rink.now + 0.1);
+      for (const EntityReplica& each : before)
+        moved += client.replicas().find(each.object)->motion.time != each.motion.time;
+      client.computed()->look_back();
+      for (const EntityReplica& each : before) {
+        const EntityReplica& now = *client.replicas().find(each.object);
+        EXPECT_EQ(now.motion.time, each.motion.time);
+        EXPECT_EQ(now.motion.position, each.motion.position);
+        EXPECT_EQ(now.motion.velocity, each.motion.velocity);
+      }
+    }
+  }
+  EXPECT_GT(moved, 100u);
+}
+
 /// All that the client has in scope is within the error of trajectories; answers how many.
 std::size_t count_followed(LockstepRink& rink, Client& client) {
   std::size_t count = 0;
@@ -200,7 +227,9 @@ TEST(Exact, AMessageThatCannotBeReadIsMendedAndAfterThreeTheServerTellsAll) {
   }
   for (int tick = 0; tick < 30; ++tick) {
     rink.tick();
-    if (tick > 1) EXPECT_GT(count_followed(rink, rink.client(0)), 10u);
+    if (tick > 1) {
+      EXPECT_GT(count_followed(rink, rink.client(0)), 10u);
+    }
     Compared compared;
     compare(rink, rink.client(1), "another", compared);
     if (HasFatalFailure()) return;
@@ -209,4 +238,4 @@ TEST(Exact, AMessageThatCannotBeReadIsMendedAndAfterThreeTheServerTellsAll) {
 }
 
 }  // namespace
-}  // namespace rink::game::test
+}  // namespace rink::game

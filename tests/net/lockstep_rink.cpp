@@ -103,7 +103,7 @@ void LockstepRink::send_tick(double time) {
   server_->publish(stamp);
   server_link_->flush(now);
   host_.poll({});
-  push_filter_hints(*server_, execution_);
+  push_filter_hints(*server_, execution_, facts_);
   host_.match();
   if (exact_) push_exact(*server_, *exact_, stamp, execution_);
   host_.flush();

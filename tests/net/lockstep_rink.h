@@ -11,6 +11,7 @@
 #include "game/net/client/client.h"
 #include "game/net/server/server.h"
 #include "game/replication/exact/exact_feed.h"
+#include "game/replication/game_facts.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
@@ -90,6 +91,7 @@ class LockstepRink {
   rti::FederationExecution execution_;
   rti::FederationHost host_;
   std::unique_ptr<Server> server_;
+  GameFacts facts_;
   std::optional<ExactFeed> exact_;
   std::unique_ptr<rti::FederateLink> server_link_;
   rti::FederateLinks server_links_;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -71,7 +72,11 @@ struct MortalNode {
              {.player_count = 1,
               .patience_s = patience_s,
               .absence_s = absence_s,
-              .notify = [this](const std::string& text) { news.push_back(text); }},
+              .notify =
+                  [this](const std::string& text) {
+                    const std::lock_guard lock(mutex);
+                    told.push_back(text);
+                  }},
              now_s),
         shown(scene) {}
 
@@ -87,10 +92,16 @@ struct MortalNode {
     return failure.empty() && !node.has_shown_all();
   }
 
-  test::Mortality mortality;
+  std::vector<std::string> news() {
+    const std::lock_guard lock(mutex);
+    return told;
+  }
+
+  Mortality mortality;
   SharedGame game;
-  test::MortalMeeting meeting;
-  std::vector<std::string> news;
+  MortalMeeting meeting;
+  std::mutex mutex;
+  std::vector<std::string> told;  ///< guarded by `mutex`: the node's thread tells
   Node node;
   Game shown;
   std::vector<InputEvent> keys;
@@ -219,7 +230,7 @@ TEST_F(LostNodes, LeaveOthersWithTheGameOfOneEngineWhicheverWordWasTheirLast) {
     for (const auto& each : nodes_) {
       if (each.get() == &lost) continue;
       EXPECT_EQ(each->failure, "");
-      EXPECT_EQ(each->news.size(), 1u);
+      EXPECT_EQ(each->news().size(), 1u);
       EXPECT_EQ(each->node.finish().may_have_split, count == 2 && lost.node.number() == 0);
     }
     if (lost.mortality.last_word < 70 * (count - 1)) {
@@ -237,10 +248,12 @@ TEST_F(LostNodes, LeaveOthersWithOneResultWhicheverOfTheLastWordsTheySay) {
   for (std::uint64_t last = 1; last <= 14; ++last) {
     SCOPED_TRACE("the last word but " + std::to_string(last - 1));
     meet(3, 0.2);
+    const MortalNode& lost = at(static_cast<std::uint32_t>(last % 3));
     at(static_cast<std::uint32_t>(last % 3)).mortality.last_word = words - last;
     begin();
     play();
-    EXPECT_EQ(expect_one_game(), 2u);
+    // Keys come by real time, so it may have said fewer words than the node that was counted.
+    EXPECT_EQ(expect_one_game(), lost.mortality.is_dead ? 2u : 3u);
   }
 }
 
@@ -303,7 +316,7 @@ TEST_F(LostNodes, HavePlayersThatGetTheirBatsBackAtAnotherNode) {
   meet(3, 3.0);
   at(1).mortality.last_word = 40;
   begin();
-  play([&] { return !at(0).news.empty() && !at(2).news.empty(); });
+  play([&] { return !at(0).news().empty() && !at(2).news().empty(); });
   EXPECT_EQ(seat(2, 101), 1u) << "its own";
   at(2).node.press(1, Key::up, true, 0.0);
   EXPECT_EQ(seat(0, 999), 3u) << "the first that is free";
@@ -319,7 +332,7 @@ TEST_F(LostNodes, AreLostWhenTheyFallSilentAndDoNotComeBack) {
   at(0).mortality.last_word = 70, at(0).mortality.is_frozen = true;
   begin();
   play([&] { return at(1).node.has_shown_all() && at(2).node.has_shown_all(); });
-  EXPECT_THAT(at(1).news, testing::ElementsAre(HasSubstr("peer 0")));
+  EXPECT_THAT(at(1).news(), testing::ElementsAre(HasSubstr("peer 0")));
   at(0).mortality.is_thawed = true;
   play();
   EXPECT_NE(at(0).failure, "");

@@ -1,5 +1,5 @@
 // Rounds of matches: short, checked against lies, and the same game at both nodes.
-#include "game/node/match_rounds.h"
+#include "game/node/match/match_rounds.h"
 
 #include <gtest/gtest.h>
 
@@ -183,8 +183,10 @@ class PlayingNode final : public WindowParticipant {
   }
   void tell_a_lie(peer::Session& session) {
     const std::uint32_t bat = game_.start().bat(seats_.number())->index;
-    if (lie == Lie::untold_key)
-      return session.peer().receive(0, peer::Press{.bat = bat, .thrust = {1.0, 0.0}});
+    if (lie == Lie::untold_key) {
+      const peer::Press untold{.bat = bat, .thrust = {1.0, 0.0}};
+      return session.peer().receive(0, {&untold, 1});
+    }
     const std::uint32_t player = lie == Lie::key_of_another ? 0 : 2;
     mail_.send(0,
                written({.window = 60, .keys = {{.player = player, .code = 5}}}, state_of(session)));
@@ -202,7 +204,7 @@ class PlayingNode final : public WindowParticipant {
 
 TEST(MatchRounds, PlayTheGameOfOneEngineInFewBytes) {
   constexpr std::uint64_t windows = 1200;
-  const Scene scene = load_scene(test::source_folder() + "/scenes/match.toml");
+  const Scene scene = load_scene(rink::test::source_folder() + "/scenes/match.toml");
   peer::test::PostOffice office(2);
   PlayingNode one(office, 0, scene), two(office, 1, scene);
   std::thread other([&] { two.play(windows); });
@@ -218,7 +220,7 @@ TEST(MatchRounds, PlayTheGameOfOneEngineInFewBytes) {
 }
 
 TEST(MatchRounds, NameWhoLies) {
-  const Scene scene = load_scene(test::source_folder() + "/scenes/match.toml");
+  const Scene scene = load_scene(rink::test::source_folder() + "/scenes/match.toml");
   for (const auto& [lie, what] :
        {std::pair{Lie::key_of_another, "peer 1 presses a key of player 0, who does not play there"},
         std::pair{Lie::key_of_nobody, "peer 1 presses a key of player 2, who does not play there"},

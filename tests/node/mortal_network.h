@@ -18,7 +18,7 @@
 #include "game/net/peer/network/peer_network.h"
 #include "game/node/socket_meeting.h"
 
-namespace rink::game::test {
+namespace rink::game {
 
 /// When the node dies, counted in words of mail that it has sent; and what is left of it.
 struct Mortality {
@@ -105,4 +105,4 @@ class MortalMeeting final : public Meeting {
   Mortality& mortality_;
 };
 
-}  // namespace rink::game::test
+}  // namespace rink::game

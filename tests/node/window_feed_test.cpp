@@ -30,7 +30,7 @@ TEST(WindowFeed, ForgetsWhatIsUndoneAndTakesItAnew) {
   WindowFeed feed(3, tick_s);
   play(feed, 3, 2, 2);
   EXPECT_EQ(feed.stretch_until(feed.end_of(2)), 2u);
-  feed.rewind(2);
+  EXPECT_TRUE(feed.rewind(2));
   for (const peer::PeerNumber node : {0u, 1u, 2u}) EXPECT_EQ(feed.count(node), 2u);
   feed.expect({}, 4.0 * tick_s);
   for (const peer::PeerNumber node : {0u, 1u, 2u}) feed.add(node, change(3));
@@ -42,7 +42,7 @@ TEST(WindowFeed, WaitsForNothingMoreOfALostNode) {
   WindowFeed feed(3, tick_s);
   play(feed, 2, 2, 1);
   EXPECT_EQ(feed.take_felt().size(), 3u) << "the second window is not whole";
-  feed.rewind(2);
+  EXPECT_TRUE(feed.rewind(2));
   EXPECT_FALSE(feed.is_whole(2));
   feed.add(2, change(2));  // by whoever stands in for it
   feed.close(2);

@@ -51,7 +51,8 @@ class ClientServer {
  public:
   ClientServer(const Scene& scene, const ServerSettings& server, const std::string& scheme)
       : hub_(network_),
-        serving_(rink_fom(), scene, server, federation_settings(scene, scheme, 0.0),
+        serving_(rink_fom(), scene, server,
+                 federation_settings(scene, scheme, cell_size_of_nodes(scene, scheme, 0.0)),
                  {HeldClock::now_s, [this] { return simulated_s_; }}) {
     hub_.listen("clients");
     serving_.host().add(hub_);
@@ -192,8 +193,9 @@ class LockstepNodes {
 
   SchemeReach reach() const {
     const SharedGame& game = *games_.front();
+    const double cell_size = cell_size_of_nodes(game.scene(), settings_.scheme, 0.0);
     return reach_of(settings_.scheme,
-                    federation_settings(game.scene(), settings_.scheme, 0.0).filter_settings,
+                    federation_settings(game.scene(), settings_.scheme, cell_size).filter_settings,
                     game.extent_max());
   }
   ClientServer& server(std::uint32_t node) { return *servers_[node]; }

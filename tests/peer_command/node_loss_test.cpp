@@ -69,16 +69,23 @@ TEST_F(NodeLoss, GoesOnWithoutANodeThatIsKilledWithTheGameOfOneEngine) {
   }
   EXPECT_THAT(one.stderr_tail() + two.stderr_tail(), HasSubstr("peer 2 ("));
   const KeyLog log = same_log({record_of("first"), record_of("second")});
-  for (std::uint32_t player = 0; player < 6; ++player) {
+  // Which of the lost node's three players has which bat depends on who came first.
+  std::uint32_t players = 0, went_on = 0;
+  for (std::uint32_t player = 0; player < 8; ++player) {
     const std::vector<InputEvent> keys = keys_of(log, player);
-    ASSERT_FALSE(keys.empty());
-    EXPECT_EQ(keys.back().time > 7.0, player < 4) << player;
-    if (player < 4) continue;
+    if (keys.empty()) continue;
+    ++players;
+    if (keys.back().time > 7.0) {
+      ++went_on;
+      continue;
+    }
+    EXPECT_GE(player, 4u);
     KeysHeld held;
     for (const InputEvent& key : keys) held.set(key.key, key.kind == InputKind::key_down);
     EXPECT_EQ(held, KeysHeld()) << "those of the lost node's players are released";
   }
-  EXPECT_GT(keys_of(log, 7).back().time, 7.0) << "it is back at another node";
+  EXPECT_EQ(players, 7u);
+  EXPECT_EQ(went_on, 5u) << "four at nodes that are left, and the one that is back";
 }
 
 TEST_F(NodeLoss, LeavesTheSecondOfTwoAloneWhichCannotKnowThatTheFirstIsDead) {
@@ -119,7 +126,8 @@ TEST_F(NodeLoss, GoesOnWithoutANodeThatIsFrozenWhichDoesNotEndWell) {
   EXPECT_THAT(two.stderr_tail() + third.stderr_tail(), HasSubstr("was silent for 1 s"));
   ASSERT_EQ(kill(one.id(), SIGCONT), 0);
   ASSERT_TRUE(ends(one));
-  EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost));
+  EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::connection_lost))
+      << one.stderr_tail();
   same_log({record_of("second"), record_of("third")});
 }
 

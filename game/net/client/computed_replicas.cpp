@@ -76,6 +76,12 @@ void ComputedReplicas::look_ahead(double instant) {
   show_changed({exact_.time(), exact_.tag()});
 }
 
+void ComputedReplicas::look_back() {
+  if (!exact_.is_exact()) return;
+  exact_.look_back();
+  show_changed({exact_.time(), exact_.tag()});
+}
+
 void ComputedReplicas::withdraw() {
   for (const ExactReplicas::Body& body : exact_.bodies()) replicas_.set_scope(body.object, false);
   bat_ = {};

@@ -27,6 +27,8 @@ class ComputedReplicas {
   /// Shows what is computed up to the simulated `instant` [s] without news (see
   /// ExactReplicas::look_ahead).
   void look_ahead(double instant);
+  /// Shows again what there is as of the last tick.
+  void look_back();
   /// Shows nobody any more: the server tells all from now on.
   void withdraw();
 

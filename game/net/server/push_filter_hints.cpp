@@ -4,8 +4,26 @@
 #include "game/replication/filter_setup.h"
 
 namespace rink::game {
+namespace {
 
-void push_filter_hints(const Server& server, rti::FederationExecution& federation) {
+void push_facts(const Server& server, rti::FederationExecution& federation, GameFacts& facts,
+                double now) {
+  const Game& game = server.game();
+  for (const Entity& entity : game.entities()) {
+    const rti::ObjectHandle object = server.publisher().object(entity.id);
+    federation.set_object_facts(object, facts.of(game, entity, now));
+  }
+  server.seats().for_each([&](rti::FederateHandle federate, const Seats::Seat& seat) {
+    const auto bat = game.bat(seat.player);
+    if (!seat.is_offered || !bat) return;
+    federation.set_federate_facts(federate, facts.of(game, game.entity(*bat), now));
+  });
+}
+
+}  // namespace
+
+void push_filter_hints(const Server& server, rti::FederationExecution& federation,
+                       GameFacts& facts) {
   for (const auto& [object, entity] : server.publisher().registered())
     federation.set_object_role(object, role_of(entity, server.is_always_relevant(entity.kind)));
   for (const auto& [federate, player] : server.seats().offered())
@@ -18,10 +36,11 @@ void push_filter_hints(const Server& server, rti::FederationExecution& federatio
       const Vector2 to = direction(server.game().keys_held(seat.player));
       federation.set_federate_heading(federate, {to.x(), to.y()});
     });
-  if (!traits.uses_flights) return;
+  if (!traits.uses_flights && !traits.uses_facts) return;
   // One clock for all matches, since a filter's time must not go back.
   const double earlier_s = server.hosted() ? server.hosted()->earlier_s() : 0.0;
   federation.set_time(earlier_s + server.game().now());
+  if (traits.uses_facts) push_facts(server, federation, facts, earlier_s + server.game().now());
   for (auto [object, flight] : server.publisher().flights()) {
     flight.time += earlier_s;
     federation.set_object_flight(object, flight);

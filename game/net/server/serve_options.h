@@ -17,6 +17,7 @@ struct ServeOptions {
   std::string key_file, from_state;
   std::string node_listen, join;       ///< where other nodes reach this one; any other node to join
   std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's
+  std::vector<std::string> plugins{};  ///< files of plugins that the scheme may name
   std::vector<std::string> members{};  ///< of the federation file's list, if it has one
   std::uint16_t port = 4711;
   bool is_rank = false;       ///< of MPI, all of which share the simulation

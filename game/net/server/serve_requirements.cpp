@@ -43,6 +43,14 @@ void require_cells(const ServeOptions& options) {
                            having);
 }
 
+/// Throws if the scheme names a plugin that is not loaded.
+void require_scheme(const ServeOptions& options, const Scene& scene) {
+  const rti::FederationSettings settings =
+      federation_settings(scene, options.scheme, options.cell_size);
+  if (const auto complaint = im::complaint_about(options.scheme, settings.filter_settings))
+    throw std::runtime_error("--scheme: " + *complaint);
+}
+
 /// Throws if a scheme ignores the kinds given as always relevant, since comparing them would
 /// compare equal runs.
 void require_always(const ServeOptions& options) {
@@ -133,6 +141,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   if (body_count > body_max)
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) +
                              " bodies; allowed is at most " + std::to_string(body_max));
+  require_scheme(options, scene);
   require_cells(options);
   require_always(options);
   require_beginning(options);

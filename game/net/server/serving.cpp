@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "game/net/plugins.h"
 #include "game/net/server/interest_report.h"
 #include "game/net/server/push_exact.h"
 #include "game/net/server/push_filter_hints.h"
@@ -100,7 +101,7 @@ bool Serving::send(double simulated_s, double due_s, TickCosts& costs) {
   link_.flush(now_s_());
   host_.poll({});
   if (is_published) {
-    push_filter_hints(server_, execution_);
+    push_filter_hints(server_, execution_, facts_);
     watch.add_to(costs.send_s);
     host_.match();
     if (shared_ != nullptr) look_around();
@@ -130,7 +131,13 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   rti::FederationSettings settings;
   settings.filter = scheme;
   settings.filter_settings = filter_settings(scene, cell_size);
+  settings.filter_settings.plugins = loaded_plugins();
   return settings;
+}
+
+double cell_size_of_nodes(const Scene& scene, const std::string& scheme, double cell_size) {
+  if (cell_size > 0.0 || !im::takes_cell_size(scheme)) return cell_size;
+  return im::cell_size_of(federation_settings(scene, scheme, 0.0).filter_settings);
 }
 
 }  // namespace rink::game

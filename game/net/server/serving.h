@@ -8,6 +8,7 @@
 #include "game/net/server/server.h"
 #include "game/net/server/server_recorder.h"
 #include "game/replication/exact/exact_feed.h"
+#include "game/replication/game_facts.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
@@ -78,6 +79,7 @@ class Serving {
   rti::FederateLink link_;
   rti::FederateLinks links_;
   std::optional<ServerRecorder> recorder_;
+  GameFacts facts_;
   SharedPlay* shared_;              ///< null: this server alone plays
   std::optional<ExactFeed> exact_;  ///< under the policy "exact"
 };
@@ -86,5 +88,9 @@ class Serving {
 /// [m] is for schemes with cells, 0 leaves it to them.
 rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,
                                             double cell_size);
+
+/// `cell_size` [m], or where that is 0 and the scheme has cells the one that follows from the
+/// world: nodes have different clients, whose views would choose different cells.
+double cell_size_of_nodes(const Scene& scene, const std::string& scheme, double cell_size);
 
 }  // namespace rink::game

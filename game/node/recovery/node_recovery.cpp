@@ -28,10 +28,12 @@ std::optional<bool> NodeRecovery::sort(peer::PeerNumber from,
   const bool is_replicated = parts_.network.terms().is_replicated;
   if (kind_of(bytes) == NodeMessage::stand_in) {
     StandIn stand_in;
-    if (!is_replicated || stand_ins_.size() >= stand_ins_max ||
+    const auto said =
+        std::ranges::count(stand_ins_, from, &std::pair<peer::PeerNumber, StandIn>::first);
+    if (!is_replicated || static_cast<std::size_t>(said) >= stand_ins_max ||
         !peer::read_whole(content_of(bytes), stand_in))
       return false;
-    stand_ins_.push_back(std::move(stand_in));
+    stand_ins_.emplace_back(from, std::move(stand_in));
     return true;
   }
   if (theirs < own) return true;
@@ -48,7 +50,21 @@ bool NodeRecovery::receive(peer::PeerNumber from, peer::PartChange change) try {
   return false;
 }
 
+/// What a lost node told this one of its last stretch may lack bodies that have come since.
+void NodeRecovery::add_all_own(peer::PartChange& own, const peer::Peer& peer) {
+  std::vector<std::uint32_t> listed;
+  for (const peer::Handover::Body& body : own.bodies) listed.push_back(body.number);
+  for (const peer::FreeFlightState& flight : own.free_flights) listed.push_back(flight.number);
+  std::ranges::sort(listed);
+  for (const std::uint32_t body : peer.owned())
+    if (peer.world().kind({body}) != physics::BodyKind::post &&
+        !std::ranges::binary_search(listed, body))
+      own.bodies.push_back({body, peer.share().state(body)});
+  std::ranges::sort(own.bodies, {}, &peer::Handover::Body::number);
+}
+
 void NodeRecovery::finish_window(peer::PartChange own, const peer::Session& session) try {
+  if (std::exchange(is_anew_, false)) add_all_own(own, session.peer());
   parts_.receiver->finish_window(std::move(own), session.division(), session.peer().share());
 } catch (const FaultyPart& fault) {
   if (!parts_.network.terms().is_replicated) throw;
@@ -86,18 +102,19 @@ void NodeRecovery::take_over(peer::PeerNumber lost, const peer::Part& part,
   StandIn stand_in{.node = lost};
   stand_in.change.step = stretch, stand_in.change.time = part.time;
   stand_in.change.bodies = part.bodies;
+  stand_in.change.rest_contacts = part.rest_contacts;
   stand_in.change.log.assign(keys.begin(), keys.end());
   const physics::World& start = parts_.game.start().world();
   std::erase_if(stand_in.change.bodies, [&](const peer::Handover::Body& body) {
     return body.number < start.body_count() && start.kind({body.number}) == physics::BodyKind::post;
   });
   tell_others(parts_.network, NodeMessage::stand_in, peer::bytes_from(stand_in));
-  if (stand_ins_.size() < stand_ins_max) stand_ins_.push_back(std::move(stand_in));
+  stand_ins_.emplace_back(parts_.network.number(), std::move(stand_in));
 }
 
 /// Equal at all: all have the same decisions up to that window.
 void NodeRecovery::seat_again(peer::Session& session, peer::Peer& peer) {
-  parts_.seats.rewind(session.window(), peer.now());
+  parts_.seats.rewind(session.window(), end_of_window(parts_.network.terms(), session.window()));
   const std::vector<peer::PeerNumber>& lost = session.lost();
   peer::PeerNumber referee = 0;
   while (std::ranges::binary_search(lost, referee)) ++referee;
@@ -114,10 +131,12 @@ void NodeRecovery::go_back(peer::Session& session, std::span<const peer::Key> pe
   const std::uint64_t stretch = parts_.feed.stretch_until(session.peer().now());
   assert((stretch > 0) == (session.peer().now() > 0.0));
   session.peer().keep_changes();
-  parts_.feed.rewind(stretch);
+  if (!parts_.feed.rewind(stretch))
+    throw peer::ProtocolError("others go back behind what all had told, which no honest node does");
   parts_.receiver->rewind(stretch, session.division());
   close(session.lost(), stretch);
   parts_.teller->begin_again(session.peer(), stretch);
+  is_anew_ = true;
   parts_.subscription.take_again();
   note_felt();
   for (const peer::Key& key : pending) parts_.players.note_felt(key);
@@ -128,10 +147,18 @@ void NodeRecovery::go_back(peer::Session& session, std::span<const peer::Key> pe
   handle_early();
 }
 
+/// Who keeps the copy of a node's part: the next in the ring of those that were there.
+peer::PeerNumber NodeRecovery::keeper_of(peer::PeerNumber node) const {
+  do node = (node + 1) % parts_.network.terms().peer_count;
+  while (parts_.feed.is_closed(node));
+  return node;
+}
+
 /// Nothing more comes of lost nodes than who stands in for them says.
 void NodeRecovery::close(const std::vector<peer::PeerNumber>& lost, std::uint64_t stretch) {
-  for (StandIn& each : std::exchange(stand_ins_, {}))
-    if (std::ranges::binary_search(lost, each.node) && each.change.step == stretch)
+  for (auto& [from, each] : std::exchange(stand_ins_, {}))
+    if (std::ranges::binary_search(lost, each.node) && each.change.step == stretch &&
+        !parts_.feed.is_closed(each.node) && from == keeper_of(each.node))
       parts_.receiver->stand_in(each.node, std::move(each.change));
   for (const peer::PeerNumber node : lost) {
     if (parts_.feed.is_closed(node)) continue;  // since an earlier loss

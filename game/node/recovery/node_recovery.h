@@ -71,15 +71,18 @@ class NodeRecovery final : public LossParticipant {
   };
   std::uint32_t bat_of(std::uint32_t player) const;
   void note_felt();
+  static void add_all_own(peer::PartChange& own, const peer::Peer& peer);
+  peer::PeerNumber keeper_of(peer::PeerNumber node) const;
   void close(const std::vector<peer::PeerNumber>& lost, std::uint64_t stretch);
   void handle_early();
 
   Parts parts_;
   Handler handle_;
   std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> early_;
-  std::vector<StandIn> stand_ins_;
+  std::vector<std::pair<peer::PeerNumber, StandIn>> stand_ins_;  ///< with who says it
   std::map<std::uint32_t, KeysHeld> held_;  ///< by bat, by the keys that were felt
   std::vector<Inherited> inherited_;        ///< at the referee
+  bool is_anew_ = false;                    ///< since the last loss no window was played
 };
 
 }  // namespace rink::game

@@ -107,8 +107,9 @@ bool Inbox::learns_of_loss(PeerNumber from, std::span<const std::uint8_t> bytes,
   return is_news;
 }
 
-/// Who passes a question on is counted by those that hear it there first, but never more often than
-/// it has counted others itself: it gives up the one that began before it is given up for that one.
+/// Who passes a question on is counted by those that hear it there first, so a liar that asks
+/// others by turns can have one of them given up; but who says that peers are gone is believed
+/// anyway.
 void Inbox::count_alarm(PeerNumber from) {
   if (++alarms_.at(from) > alarms_max) give_up(from, "asks again and again for peers that answer");
 }

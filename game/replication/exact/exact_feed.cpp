@@ -8,9 +8,14 @@
 
 #include "game/physics/subdomain.h"
 #include "im/basics/checked.h"
+#include "rti/wire/membership_messages.h"
 
 namespace rink::game {
 namespace {
+
+/// A conversation begins with one message, which a connection's queue must hold; no entry takes
+/// fewer bytes than the latter.
+constexpr std::size_t start_bytes_max = 512u << 10, entry_bytes = 16;
 
 /// The place of `body`, which must be there, in a list that rises.
 std::uint32_t rank_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
@@ -39,7 +44,7 @@ void ExactFeed::send(const Tick& tick, rti::FederationExecution& execution) {
   compare_groups();
   ++tick_count_;
   for (std::size_t k = 0; k < clients_.size(); ++k)
-    if (clients_[k]) compose(k, tick, execution);
+    if (clients_[k] && !clients_[k]->is_told) compose(k, tick, execution);
   events_.forget();
   if constexpr (checks_whole_structures) check();
 }
@@ -171,6 +176,13 @@ void ExactFeed::compare_groups() {
     }
 }
 
+/// The RTI sends in parts what would be too much at once.
+void ExactFeed::leave_to_rti(Client& client, rti::FederationExecution& execution) {
+  forget(client);
+  client.is_told = true;
+  execution.serve_by_host(client.federate, {});
+}
+
 void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExecution& execution) {
   Client& client = *clients_[index];
   const rti::Bitmap* const scope = execution.scope(client.federate);
@@ -186,6 +198,8 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
     ++counters_.starts;
   }
   find_changes(client, *scope);
+  if (message_.start && message_.entries.size() > start_bytes_max / entry_bytes)
+    return leave_to_rti(client, execution);
   add_told(client);
   add_keys(client);
   classes_.clear();
@@ -200,7 +214,7 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
   apply_changes(index);
   if (const auto player = tick.player_of(client.federate); player && *player < tick.felt.size())
     if (tick.felt[*player] != client.felt) message_.felt = client.felt = tick.felt[*player];
-  if ((tick_count_ + index) % hash_period_ == 0) {
+  if ((tick_count_ + index) % hash_period_ == 0 && !game_.is_cut_short()) {
     message_.hash = hash_of(client);
     ++counters_.hashes;
   }
@@ -208,6 +222,8 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
   rti::BitWriter writer(bytes_);
   exact::exchange(writer, message_, context, drives_);
   writer.finish();
+  if (bytes_.size() > (message_.start ? start_bytes_max : rti::HostMessage::size_max))
+    return leave_to_rti(client, execution);
   client.time = message_.time, client.tag = message_.tag;
   ++counters_.ticks, counters_.bytes += bytes_.size();
   execution.send_host_message(client.federate, bytes_);

@@ -55,6 +55,7 @@ class ExactFeed {
   struct Client {
     rti::FederateHandle federate;
     bool needs_start = true;
+    bool is_told = false;  ///< by the RTI: its scope is too large for one message
     double time = 0.0;
     std::uint64_t tag = 0;
     std::uint32_t felt = 0;
@@ -74,6 +75,7 @@ class ExactFeed {
   void forget(Client& client);
   void compare_groups();
   void compose(std::size_t client, const Tick& tick, rti::FederationExecution& execution);
+  void leave_to_rti(Client& client, rti::FederationExecution& execution);
   void find_changes(const Client& client, const rti::Bitmap& scope);
   void add_told(const Client& client);
   void add_keys(const Client& client);

@@ -184,7 +184,7 @@ bool exchange_entry(Stream& stream, ExactEntry& entry, const ExactStart& start, 
     return false;
   const std::int64_t object =
       unfolded(off) + static_cast<std::int64_t>(entry.number) + start.object_base;
-  if (object < 0 || object > 0xffffffff) return false;
+  if (object < 0 || object >= 0xffffffff) return false;  // the greatest is the empty handle
   entry.object = static_cast<std::uint32_t>(object);
   entry.exact_class = static_cast<std::uint32_t>(exact_class);
   const ExactClass& kind = start.classes[entry.exact_class];
@@ -339,6 +339,8 @@ bool exchange_instant(Stream& stream, ExactTick& tick, const ExactContext& conte
   if (!foretold(stream, time, std::bit_cast<std::uint64_t>(context.time + tick_s))) return false;
   tick.time = std::bit_cast<double>(time);
   if (!(tick.time >= context.time && tick.time <= 1e9)) return false;
+  constexpr double gap_max = 10.0;  // s: the receiver plays what is between
+  if (Stream::is_reading && !tick.start && tick.time - context.time > gap_max) return false;
   bool has_tag = tick.tag != 0;
   if (!stream.flag(has_tag)) return false;
   if (!has_tag) return true;

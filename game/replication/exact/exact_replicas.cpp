@@ -12,10 +12,6 @@ namespace {
 using physics::BodyState;
 using physics::RestContact;
 
-bool concerns(const RestContact& rest, std::uint32_t body) {
-  return rest.low == body || rest.high == body;
-}
-
 bool are_same(const RestContact& a, const RestContact& b) {
   return a.low == b.low && a.high == b.high && a.axis == b.axis;
 }
@@ -228,7 +224,8 @@ void ExactReplicas::leave(const ExactTick& tick) {
     changed_.push_back(body.number);
     body.state = each.state.body, body.drive = each.state.drive;
     for (const RestContact& rest : each.state.rest_contacts)
-      if (std::ranges::none_of(outer_contacts_,
+      if (concerns(rest, body.number) &&
+          std::ranges::none_of(outer_contacts_,
                                [&](const auto& other) { return are_same(rest, other); }))
         outer_contacts_.push_back(rest);
     for (const std::uint32_t other : each.state.jammed_with)
@@ -392,8 +389,11 @@ void ExactReplicas::look_ahead(double instant) {
   list_changed();
 }
 
-std::size_t ExactReplicas::memory_bytes() const {
-  return sizeof *this + bodies_.capacity() * (sizeof(Body) + sizeof(BodyState));
+void ExactReplicas::look_back() {
+  if (!is_ahead_) return;
+  part_->undo(), is_ahead_ = false;
+  changed_.clear();
+  list_changed();
 }
 
 }  // namespace rink::game

@@ -87,10 +87,15 @@ class ExactReplicas {
   /// Nobody is exact until then. An instant that is not after that of the last tick, or more than
   /// `ahead_max` after it, only goes so far.
   void look_ahead(double instant);
+  /// Takes look_ahead() back: all are again as of the last tick. changed() lists whom it had
+  /// changed.
+  void look_back();
   static constexpr double ahead_max = 0.5;  ///< s
 
   const ExactReplicaCounters& counters() const { return counters_; }
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const {
+    return sizeof *this + bodies_.capacity() * (sizeof(Body) + sizeof(physics::BodyState));
+  }
 
  private:
   Result refuse(const std::string& why);

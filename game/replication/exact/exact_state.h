@@ -41,6 +41,10 @@ struct ExactState {
   std::vector<std::uint32_t> jammed_with;
 };
 
+inline bool concerns(const physics::RestContact& rest, std::uint32_t body) {
+  return rest.low == body || rest.high == body;
+}
+
 /// A body of `exact_class` that nothing has happened to.
 inline physics::BodyState body_of(const ExactClass& exact_class, const physics::WorldSpec& spec) {
   physics::BodyState body;
@@ -161,7 +165,8 @@ bool any(Stream& stream, physics::Vector2& value) {
 
 template <class Stream>
 bool exchange(Stream& stream, Drive& drive) {
-  std::int64_t x = drive.x, y = drive.y;
+  const auto sign = [](int along) { return std::int64_t{along > 0} - std::int64_t{along < 0}; };
+  std::int64_t x = sign(drive.x), y = sign(drive.y);
   if (!stream.ranged(x, -1, 1) || !stream.ranged(y, -1, 1)) return false;
   if constexpr (Stream::is_reading)
     drive = {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y)};

@@ -43,6 +43,9 @@ TickEvents::TickEvents(const Game& game) {
 
 void TickEvents::look(const Game& game) {
   for (const Entity& entity : game.removed()) removed_.push_back(entity.id.index);
+  was_out_of_play_.resize(game.world().body_count());
+  for (const ScoredGoal& goal : game.scored())  // it may be back within the tick
+    if (game.world().is_in_play(goal.puck)) was_out_of_play_[goal.puck.index] = 1;
 }
 
 void TickEvents::list_drive_changes() {

@@ -26,22 +26,26 @@ FilterRelevance::FilterRelevance(const RelevanceArea& area, const game::Scene& s
 }
 
 void FilterRelevance::look_around(const game::Game& game, Centres centres) {
+  if (filter_->traits().uses_time) filter_->set_time(game.now());
   are_there_.resize(std::max(are_there_.size(), centres.size()), false);
   relevant_.resize(are_there_.size());
   for (std::uint32_t entity = 0; entity < are_there_.size(); ++entity)
     if (are_there_[entity] && (entity >= centres.size() || !centres[entity])) forget(entity);
   for (const game::Entity& entity : game.entities()) {
     assert(entity.id.index < centres.size() && centres[entity.id.index]);
-    take_in(entity, *centres[entity.id.index]);
+    take_in(entity, game, *centres[entity.id.index]);
     if (entity.player && (looks_back() || relevant_[entity.id.index]))
       subscribe(entity, game, *centres[entity.id.index]);
   }
   match();
 }
 
-void FilterRelevance::take_in(const game::Entity& entity, const Vector2& centre) {
+void FilterRelevance::take_in(const game::Entity& entity, const game::Game& game,
+                              const Vector2& centre) {
   const std::uint32_t number = entity.id.index;
   filter_->set_update_region(number, around(centre, entity.half_extent));
+  if (filter_->traits().uses_facts)
+    filter_->set_entity_facts(number, facts_.of(game, entity, game.now()));
   if (are_there_[number]) return;
   are_there_[number] = true;
   filter_->set_entity_role(number, game::role_of(entity, area_.always_by_role.has(entity.kind)));
@@ -55,6 +59,8 @@ void FilterRelevance::subscribe(const game::Entity& bat, const game::Game& game,
     relevant_[number].emplace();
     filter_->set_subscriber_role(number, game::role_of(bat, false));
   }
+  if (filter_->traits().uses_facts)
+    filter_->set_subscriber_facts(number, facts_.of(game, bat, game.now()));
   if (!looks_back()) return;
   const Vector2 heading = game::direction(game.keys_held(*bat.player));
   filter_->set_heading(number, {heading.x(), heading.y()});

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "game/control/game.h"
+#include "game/replication/game_facts.h"
 #include "loadgen/measure/truth/surroundings.h"
 #include "rti/schemes.h"
 
 namespace rink::loadgen {
 
 /// A separate filter that gets what a server passes to its filter
-/// (game/net/server/push_filter_hints.h), but from the replayed game and at each look: true
-/// bounding boxes, the view around the true centre of each bat without any margin, roles, and where
-/// players look.
+/// (game/net/server/push_filter_hints.h), but from the replayed game and at each look:
+/// true bounding boxes, the view around the true centre of each bat without any margin, roles, and
+/// where players look.
 class FilterRelevance {
  public:
   using Centres = std::span<const std::optional<Vector2>>;  ///< by entity
@@ -40,12 +41,13 @@ class FilterRelevance {
   void check() const;
 
  private:
-  void take_in(const game::Entity& entity, const Vector2& centre);
+  void take_in(const game::Entity& entity, const game::Game& game, const Vector2& centre);
   void subscribe(const game::Entity& bat, const game::Game& game, const Vector2& centre);
   void forget(std::uint32_t entity);
   void match();
 
   RelevanceArea area_;
+  game::GameFacts facts_;
   std::unique_ptr<im::Filter> filter_;
   std::vector<std::optional<std::vector<std::uint32_t>>>
       relevant_;                 ///< ascending, by bat; only of bats that were asked for

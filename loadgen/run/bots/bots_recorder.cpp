@@ -115,13 +115,14 @@ void BotsRecorder::look_into(std::uint32_t place, double simulated_s) {
 void BotsRecorder::display_computed(std::uint32_t place, double simulated_s, std::size_t first) {
   clients_[place]->computed()->look_ahead(simulated_s);
   for (std::size_t k = first; k < trace_.replicas.size(); ++k) {
-    BotsTrace::Replica& replica = trace_.replicas[k];
+    game::BotsTrace::Replica& replica = trace_.replicas[k];
     if (replica.is_in_scope)
       replica.displayed = clients_[place]
                               ->replicas()
                               .find(rti::ObjectHandle{replica.object})
                               ->position_at(simulated_s);
   }
+  clients_[place]->computed()->look_back();
 }
 
 std::uint32_t BotsRecorder::bytes_of(std::span<const Received> received,

@@ -76,7 +76,7 @@ TEST_F(TinyRink, EvidenceOfAnotherVersionIsRefusedByBothNumbers) {
       words_of("rink-server-evidence", game::read_server_trace),
       HasSubstr("other.jsonl:1: expected a server's evidence of version 2, found version 3"));
   EXPECT_THAT(words_of("rink-peer-evidence", game::read_peer_trace),
-              HasSubstr("expected a peer's evidence of version 1, found version 3"));
+              HasSubstr("expected a peer's evidence of version 2, found version 3"));
   EXPECT_THAT(words_of("rink-bots-evidence", game::read_bots_trace),
               HasSubstr("expected the bots' evidence of version 1, found version 3"));
   EXPECT_THAT(words_of("rink-bots-evidence", game::read_server_trace),

@@ -1,38 +1,39 @@
 // The declared view: where it lies, and when a bat has left its middle.
-#include "game/net/client/following_view.h"
+#include "game/net/following_view.h"
 
 #include <gtest/gtest.h>
+
+#include "game/net/view.h"
 
 namespace rink::game {
 namespace {
 
-constexpr Extent field{20.0f, 10.0f};
-
 TEST(AFollowingView, IsASquareOfTheWantedAreaAndAMargin) {
-  FollowingView view({.area = 16.0, .margin = 0.5});
-  const im::Region& bounds = view.look_around({10.0f, 4.0f}, field);
+  FollowingView view(0.5);
+  const im::Region& bounds = view.look_around({10.0, 4.0}, view_half_side(16.0, 0.05, 20.0, 10.0));
   EXPECT_EQ(bounds, (im::Region{7.5, 1.5, 12.5, 6.5}));
   EXPECT_EQ(view.bounds(), bounds);
 }
 
 TEST(AFollowingView, TakesAFractionOfTheFieldIfNoAreaIsWanted) {
-  FollowingView view({.fraction = 0.02});
-  EXPECT_EQ(view.look_around({0.0f, 0.0f}, field), (im::Region{-1.0, -1.0, 1.0, 1.0}));
+  FollowingView view(0.0);
+  EXPECT_EQ(view.look_around({0.0, 0.0}, view_half_side(0.0, 0.02, 20.0, 10.0)),
+            (im::Region{-1.0, -1.0, 1.0, 1.0}));
 }
 
 TEST(AFollowingView, IsLeftByHalfTheMarginInEitherDirection) {
-  FollowingView view({.area = 4.0, .margin = 1.0});
-  view.look_around({5.0f, 5.0f}, field);
-  EXPECT_FALSE(view.is_left_by({5.25f, 5.25f}));
-  EXPECT_TRUE(view.is_left_by({5.5f, 5.0f}));
-  EXPECT_TRUE(view.is_left_by({5.0f, 4.0f}));
+  FollowingView view(1.0);
+  view.look_around({5.0, 5.0}, 1.0);
+  EXPECT_FALSE(view.is_left_by({5.25, 5.25}));
+  EXPECT_TRUE(view.is_left_by({5.5, 5.0}));
+  EXPECT_TRUE(view.is_left_by({5.0, 4.0}));
 }
 
 TEST(AFollowingView, WithoutAMarginIsLeftByAnyMotion) {
-  FollowingView view({.area = 4.0});
-  view.look_around({5.0f, 5.0f}, field);
-  EXPECT_FALSE(view.is_left_by({5.0f, 5.0f}));
-  EXPECT_TRUE(view.is_left_by({5.0f, 5.0001f}));
+  FollowingView view(0.0);
+  view.look_around({5.0, 5.0}, 1.0);
+  EXPECT_FALSE(view.is_left_by({5.0, 5.0}));
+  EXPECT_TRUE(view.is_left_by({5.0, 5.0001}));
 }
 
 }  // namespace

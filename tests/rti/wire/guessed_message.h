@@ -24,6 +24,7 @@ class Guess {
   static constexpr bool is_reading = true;
   Guess(std::mt19937& random, std::vector<std::byte>& bytes) : random_(random), bytes_(bytes) {}
   bool is_at_end() const { return true; }
+  bool check(bool is_so) const { return is_so; }
 
   template <class Number>
   bool number(Number& value) {

@@ -42,7 +42,8 @@ const std::vector<Guesser>& from_federates() {
       ListFederationExecutionsMessage, QueryManagementMessage, RequestUpdateMessage,
       ChangeTransportationMessage, QueryTransportationMessage, InstanceNamesMessage,
       SpareUpdateMessage, LocalDeleteMessage, AdvisorySwitchMessage, AcknowledgeKeyframeMessage,
-      RefuseKeyframeMessage, AcknowledgeDatagramsMessage, HelloMessage, ProofMessage>();
+      RefuseKeyframeMessage, AcknowledgeDatagramsMessage, HelloMessage, ProofMessage,
+      NotifyHostMessage>();
   return all;
 }
 
@@ -59,7 +60,7 @@ const std::vector<Guesser>& from_the_rti() {
       BeginKeyframeMessage, DeltasMessage, OwnershipNoticeMessage, InformOwnershipMessage,
       ChallengeMessage, AdmittedMessage, ExpelledMessage, FurtherBlockMessage,
       InstanceNamesAnswerMessage, ClassRelevanceMessage, ObjectRelevanceMessage,
-      TransportationMessage, StampMessage, UpdatesMessage, InteractionMessage>();
+      TransportationMessage, StampMessage, UpdatesMessage, InteractionMessage, HostMessage>();
   return all;
 }
 

@@ -56,8 +56,8 @@ SharedInterest::SharedInterest(const SharedStart& start, const InterestSettings&
       division_(division),
       send_(std::move(send)),
       view_(settings.margin),
-      interest_(settings.scheme, settings_of_peers(start.scene, settings.cell_size), settings.policy,
-                roles_of(start.game, settings.always_relevant), start.extent_max),
+      interest_(settings.scheme, settings_of_peers(start.scene, settings.cell_size),
+                settings.policy, roles_of(start.game, settings.always_relevant), start.extent_max),
       replicas_(interest_.sends_trajectories(), Drag::of(start.scene.world), kinds_of(start.game)),
       places_(start.game.world().body_count(), Place::away) {
   std::vector<peer::PeerNumber> all(settings.bats.size());

@@ -12,7 +12,12 @@
 namespace rink::game {
 
 std::string objection_to(const std::string& scheme) {
-  return im::complaint_about(scheme, {}).value_or("");
+  if (const auto complaint = im::complaint_about(scheme, {})) return *complaint;
+  const im::Traits traits = im::make_filter(scheme, {})->traits();
+  if (!traits.uses_facts && !traits.uses_time) return "";
+  return "'" + scheme +
+         "' asks for velocities, headings, kinds or ages, which peers do not hand in: "
+         "expected a condition on places and roles";
 }
 
 void require_viewing(const Terms& terms, const ViewingOptions& options, const SharedGame& game,

@@ -1,5 +1,5 @@
 // Says rounds, and turns their keys into those of the session.
-#include "game/node/match_rounds.h"
+#include "game/node/match/match_rounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -136,11 +136,11 @@ void MatchRounds::exchange(peer::Mail& mail, const SharedGame& game, const NodeS
         throw peer::ProtocolError("peer " + std::to_string(from) + " presses a key of player " +
                                   std::to_string(key.player) + ", who does not play there");
       const double thrust = game.scene().bodies.bats[key.player].thrust;
-      whole.receive(whole.number(),
-                    peer::Press{.bat = game.start().bat(key.player)->index,
-                                .thrust = thrust_of(key, thrust),
-                                .input = static_cast<std::uint8_t>(key.code % 8 + 1),
-                                .time = start + key.steps * key_grid});
+      const peer::Press press{.bat = game.start().bat(key.player)->index,
+                              .thrust = thrust_of(key, thrust),
+                              .input = static_cast<std::uint8_t>(key.code % 8 + 1),
+                              .time = start + key.steps * key_grid};
+      whole.receive(whole.number(), {&press, 1});
     }
   ++window_;
 } catch (const peer::PeerGone& gone) {
