@@ -39,8 +39,8 @@ class PartTeller {
 
   /// Before the first window, when all know the bodies of the start.
   void begin(const peer::Peer& peer);
-  /// All go back to the end of that window: what others want of this node is told anew with the
-  /// next one, and what they may have and do not want is taken from them.
+  /// All nodes go back to the end of that window. The next change tells each of the others anew
+  /// which bodies it receives, and which it does not receive any more.
   void begin_again(const peer::Peer& peer, std::uint64_t window);
   /// `change` is that of the own part in the window that leads to its step; with the last one all
   /// are told of everything.

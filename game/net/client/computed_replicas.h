@@ -1,5 +1,5 @@
-// A client's replicas where it computes them: what it is told of, played by the engine and shown as
-// any other replica set is.
+// The replicas of a client that computes them: the engine plays what the client was told, and the
+// replicas are shown as those of any other client.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Goes back in the order in which a node's side depends on itself: what was played, what is told,
-// keys, seats.
+// A node goes back in this order, since each part depends on the one before: what was played, what
+// is told, keys, seats.
 #include "game/node/recovery/node_recovery.h"
 
 #include <algorithm>

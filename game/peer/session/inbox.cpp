@@ -139,8 +139,9 @@ void Inbox::tell(const State& now) {
   }
 }
 
-/// Below a link where the decision was changed all have the changed one. Where two ends differ the
-/// one or the other lies, and nobody else can know which; but who differs with several does.
+/// A decision that is changed on a link reaches all members below it changed. If the two ends of a
+/// link differ, one of them lies, and nobody else can know which; a member that differs from
+/// several others is the liar.
 std::vector<Losses::Sentence> Inbox::parted_links(const State& now) const {
   struct Link {
     PeerNumber above, below;
