@@ -201,12 +201,17 @@ std::string Validator::first_fault(const std::vector<Item>& list, Instant... now
   return {};
 }
 
-std::string Validator::fault_of(const Handover& message, double now) const {
+std::string Validator::fault_of_part(const Handover& message, double now) const {
   for (const std::string& fault :
        {first_fault(message.bodies, now), first_fault(message.free_flights, now),
         first_fault(message.rest_contacts), first_fault(message.keys),
         first_fault(message.observations)})
     if (!fault.empty()) return fault;
+  return {};
+}
+
+std::string Validator::fault_of(const Handover& message, double now) const {
+  if (std::string fault = fault_of_part(message, now); !fault.empty()) return fault;
   for (const Handover::Body& body : message.bodies)
     if (!has_its_holds(body, message.rest_contacts))
       return named("hands over body", body.number, "in a rest contact that it does not hand over");

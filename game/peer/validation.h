@@ -52,6 +52,8 @@ class Validator {
   std::string fault_of(const Press& press) const;
   /// Of what is sent when all is over, without contacts.
   std::string fault_of_last(const Handover& message, double now) const;
+  /// Of all that a part has: a ghost in it may lean on a post that is too far away to be there.
+  std::string fault_of_part(const Handover& message, double now) const;
 
  private:
   std::string fault_of(const Handover::Body& body, double now) const;

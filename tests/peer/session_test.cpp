@@ -1,5 +1,6 @@
 // Peers that die, are cut off, or leave: whoever is left has the states of one engine, every double
 // of them, at every window.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -16,6 +17,37 @@ TEST(Session, HasTheStatesOfOneEngineWithoutALoss) {
     EXPECT_EQ(play.count(Fate::done), 3u);
     expect_whole(play);
     for (const SessionCounters& counters : play.counters) EXPECT_EQ(counters.recoveries, 0u);
+  }
+}
+
+/// Bats on both sides of the cut press against posts that are further from it than they are: the
+/// other peer has the bat as a ghost, but not the post.
+SharedScene leaning_scene(std::uint64_t number, double until) {
+  SharedScene scene{physics::World(physics::test::rink_of(4.0, 2.0, 0.5, 0.1, 1.0)), {}};
+  Random random(number);
+  for (int k = 0; k < 8; ++k) {
+    const double side = k % 2 == 0 ? 1.0 : -1.0, y = 0.2 + 0.2 * k,
+                 distance = uniform(random, 0.25, 0.5);
+    scene.world.add(physics::PostSpec{.position = {2.0 + side * distance, y}, .radius = 0.05});
+    const physics::BodyId bat = scene.world.add(physics::BatSpec{
+        .position = {2.0 + side * 0.1, y}, .half_extent = {0.05, 0.08}, .mass = 5.0});
+    for (double time = 0.05; time < until; time += uniform(random, 0.2, 0.6)) {
+      const double thrust = below(random, 4) == 0 ? -6.0 : 6.0;
+      scene.keys.push_back({time, bat.index, {side * thrust, 0.0}, 0});
+    }
+  }
+  add_gas(scene.world, random, 0.02, 1.0, 1.0);
+  return scene;
+}
+
+TEST(Session, GoesOnWhileGhostsLeanOnPostsThatAreFarAway) {
+  for (const std::uint64_t number : {0, 1, 2}) {
+    Play play(number, 2, 300, leaning_scene);
+    play.run();
+    EXPECT_EQ(play.count(Fate::done), 2u);
+    expect_whole(play);
+    for (const SessionCounters& counters : play.counters) EXPECT_EQ(counters.recoveries, 0u);
+    EXPECT_THAT(play.last_losses, testing::Each(""));
   }
 }
 

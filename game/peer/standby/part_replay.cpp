@@ -33,7 +33,7 @@ std::string fault_of_states(std::span<const std::uint8_t> states,
   if (!bodies) return no_states;
   Handover message;
   message.bodies = std::move(*bodies), message.rest_contacts = std::move(rest_contacts);
-  return scene.fault_of(message, time);
+  return scene.fault_of_part(message, time);
 }
 
 std::string fault_of_input(const PartInput& input, const Validator& scene, double time) {
