@@ -57,6 +57,9 @@ game::Scene scene_of(const Options& options) {
   if (options.seed) scene = game::with_seed(std::move(scene), *options.seed);
   if (options.bats) scene = game::scaled_to_bats(std::move(scene), *options.bats);
   scene.world.accounts_energy = true;
+  if (scene.network_grid > 0.0 && options.engine.engine != "exact")
+    throw game::SceneError("the scene " + scene.name + " has a network_grid, which the engine " +
+                           options.engine.engine + " knows nothing of: expected --engine exact");
   return scene;
 }
 

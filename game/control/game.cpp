@@ -22,7 +22,8 @@ Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
 Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
     : simulator_(physics::make_simulator(scene.world, engine)),
       world_(simulator_->exact_world()),
-      rules_(scene.rules) {
+      rules_(scene.rules),
+      grid_(world_ != nullptr ? scene.network_grid : 0.0) {
   for (const Post& post : scene.bodies.posts) {
     const EntityId id = simulator_->add(post.body);
     entities_.push_back({.id = id,
@@ -53,6 +54,7 @@ Game::Game(const Game& other)
     : simulator_(other.simulator_->copy()),
       world_(nullptr),
       rules_(other.rules_),
+      grid_(other.grid_),
       entities_(other.entities_),
       seats_(other.seats_),
       inputs_(other.inputs_),
@@ -104,10 +106,12 @@ bool Game::play(double until, physics::EventBudget* budget) {
   spawned_.clear();
   removed_.clear();
   scored_.clear();
+  grid_.forget();
   simulator_->forget_events();
   do {
     is_cut_short_ = !play_until(next_instant(until), budget);
     if (is_cut_short_) return false;
+    if (now() == grid_.next()) grid_.round(*simulator_->exact_world());
     face_off_until(now());
     apply_inputs_until(now());
   } while (now() < until);
@@ -142,7 +146,7 @@ void Game::show(double until, std::span<const ShownBody> bodies, std::span<const
 double Game::next_instant(double until) const {
   if (!inputs_.empty()) until = std::min(until, inputs_.front().event.time);
   if (!face_offs_.empty()) until = std::min(until, face_offs_.front().time);
-  return until;
+  return std::min(until, grid_.next());
 }
 
 /// A goal may bring the next instant forward, for its face-off is one.
@@ -281,6 +285,7 @@ void Game::check() const {
       face_offs_, {}, [](const FaceOff& due) { return std::tuple(due.time, due.puck.index); }));
   assert(std::ranges::all_of(
       face_offs_, [this](const FaceOff& due) { return !simulator_->is_in_play(due.puck); }));
+  assert(now() < grid_.next() || is_cut_short_);
   assert(over_ <= now() && (!is_over_ || face_offs_.empty()));
 }
 

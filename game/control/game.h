@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "game/control/bat_controller.h"
+#include "game/control/network_grid.h"
 #include "game/model/scene.h"
 #include "game/model/state_hash.h"
 #include "game/physics/body_state.h"
@@ -45,8 +46,8 @@ struct Score {
 
 /// Factory and mediator. Knows no clock: the caller says how far to `advance`. The game depends on
 /// the scene and the inputs alone, never on how often or how far `advance` is called. At one
-/// instant motion and goals come first, then face-offs, then inputs in order of player, each
-/// player's in order of submission.
+/// instant motion and goals come first, then the network grid, then face-offs, then inputs in order
+/// of player, each player's in order of submission.
 class Game {
  public:
   /// All bats of the scene are in play from the start, and the scene's scripted keys are submitted.
@@ -117,6 +118,8 @@ class Game {
     return *world_;
   }
   const MatchRules& rules() const { return rules_; }
+  /// Whom the last `advance` could not put on it is in left_off(). Of the exact engine alone.
+  const NetworkGrid& network_grid() const { return grid_; }
 
   /// All present entities, in order of id. A scored puck stays, out of play, until its face-off.
   std::span<const Entity> entities() const { return entities_; }
@@ -202,6 +205,7 @@ class Game {
   std::unique_ptr<physics::Simulator> simulator_;
   const physics::World* world_;  ///< of the simulator, if exact
   MatchRules rules_;
+  NetworkGrid grid_;
   std::vector<Entity> entities_;
   std::vector<Seat> seats_;
   std::vector<QueuedInput> inputs_;  ///< a heap, earliest first

@@ -85,6 +85,10 @@ bool GameState::exchange(Stream& stream, Game& game) {
   if (!stream.numbers(game.submitted_, game.over_, game.score_.left, game.score_.right) ||
       !stream.truth(game.is_over_))
     return false;
+  if (std::uint64_t done = game.grid_.done(); game.grid_.instants().exist()) {
+    if (!stream.number(done)) return false;
+    game.grid_.restart(done);
+  }
   if (!stream.size(game.entities_) || !stream.size(game.inputs_) || !stream.size(game.face_offs_))
     return false;
   for (Entity& entity : game.entities_)
@@ -119,6 +123,10 @@ bool GameState::is_sound(const Game& game) {
     const std::optional<EntityId> bat = game.bat(player);
     if (bat && !(game.is_there(*bat) && game.entity(*bat).player == player)) return false;
   }
+  if (const GridInstants grid = game.grid_.instants();
+      grid.exist() &&
+      !(grid.at(game.grid_.done()) <= game.now() && game.now() <= game.grid_.next()))
+    return false;
   if (!(game.over_ <= game.now()) || (game.is_over_ && !game.face_offs_.empty()) ||
       !std::ranges::is_heap(game.inputs_, Game::QueuedInput::is_later))
     return false;

@@ -104,6 +104,8 @@ struct Scene {
   std::vector<Population> populations;
   Bodies bodies;                 ///< placed and populated, as populate() made them
   std::vector<InputEvent> keys;  ///< scripted, ordered by time
+  double network_grid = 0.0;  ///< so often a second bodies that have changed are put on a grid of
+                              ///< places and speeds (physics::MotionGrid); 0: never
 };
 
 /// Draws `scene.bodies` anew from placed, populations and seed: equal bits on every machine. No two

@@ -30,6 +30,7 @@ class SceneReader {
     root_.text("name", scene_.name);
     root_.whole("seed", scene_.seed, 0, std::numeric_limits<std::int64_t>::max());
     root_.truth("allow_overlap", scene_.world.allow_overlap);
+    root_.number("network_grid", scene_.network_grid, limit::ticks);
     read_materials();
     read_field();
     read_drag();

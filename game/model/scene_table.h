@@ -50,6 +50,7 @@ inline constexpr Range thrust{0.0, thrust_max};    ///< and friction with the ta
 inline constexpr Range drag{0.0, rate_max};        ///< 1/s
 inline constexpr Range friction{0.0, 1e6};         ///< of surfaces, Coulomb's coefficient
 inline constexpr Range spin{-spin_max, spin_max};  ///< rad/s
+inline constexpr Range ticks{0.0, 1000.0};         ///< 1/s
 inline constexpr Range time{0.0, time_max}, delay{1e-9, time_max};  ///< s
 }  // namespace limit
 

@@ -122,6 +122,7 @@ class Subdomain {
   void advance(double until);
 
  private:
+  friend class MotionGrid;
   Engine& engine() const { return *world_.engine_; }
   std::uint32_t slot(std::uint32_t body) const { return slots_.slot_of(body); }
   void observe();

@@ -20,6 +20,7 @@
 namespace rink::physics::inline RINK_PRECISION {
 
 class Engine;
+class MotionGrid;
 class Slabs;
 class WorldJournal;
 
@@ -133,6 +134,7 @@ class World final : public Simulator {
   World* exact_world() override { return this; }
 
  private:
+  friend class MotionGrid;
   friend class Subdomain;
   friend class WorldJournal;
   explicit World(std::unique_ptr<Engine> engine);

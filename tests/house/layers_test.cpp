@@ -116,20 +116,20 @@ const std::vector<Layer> layers{
 
 /// Folders that a layer is divided into for whoever looks for a file; those of the RTI but for its
 /// transports are all of this kind.
-const Names divisions{"im/matching/index",          "rti/transport/tcp",
-                      "rti/transport/udp",          "rti/transport/shared_memory",
-                      "rti/transport/staged",       "game/net/server/players",
-                      "game/peer/session",          "game/peer/standby",
-                      "game/replication/exact",     "game/peer/window",
-                      "game/net/peer/network",      "game/net/peer/ranks",
-                      "game/net/peer/interest",     "game/node/match",
-                      "game/node/recovery",         "game/view/overlays",
-                      "game/view/render/shaders",   "game/view/window",
-                      "loadgen/run/bots",           "loadgen/run/nodes",
-                      "loadgen/run/peers",          "loadgen/run/saturation",
-                      "loadgen/measure/statistics", "loadgen/measure/tables",
-                      "loadgen/measure/truth",      "loadgen/report/sections",
-                      "loadgen/report/plots"};
+const Names divisions{"im/matching/index",       "rti/transport/tcp",
+                      "rti/transport/udp",       "rti/transport/shared_memory",
+                      "rti/transport/staged",    "game/net/server/players",
+                      "game/peer/session",       "game/peer/standby",
+                      "game/replication/exact",  "game/peer/window",
+                      "game/net/peer/network",   "game/net/peer/ranks",
+                      "game/net/peer/interest",  "game/node/match",
+                      "game/physics/rounding",   "game/node/recovery",
+                      "game/view/overlays",      "game/view/render/shaders",
+                      "game/view/window",        "loadgen/run/bots",
+                      "loadgen/run/nodes",       "loadgen/run/peers",
+                      "loadgen/run/saturation",  "loadgen/measure/statistics",
+                      "loadgen/measure/tables",  "loadgen/measure/truth",
+                      "loadgen/report/sections", "loadgen/report/plots"};
 
 const Names network_headers{"asio",    "sys/socket.h", "netinet/", "arpa/inet.h",
                             "netdb.h", "sys/epoll.h",  "mpi.h"};

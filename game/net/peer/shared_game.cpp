@@ -91,6 +91,10 @@ double end_of_window(const Terms& terms, std::uint64_t window) {
 
 SharedGame::SharedGame(Scene scene, const std::vector<InputEvent>& recorded)
     : scene_(std::move(scene)), keys_(merged(scene_.keys, recorded)), start_(scene_) {
+  if (scene_.network_grid > 0.0)
+    throw SceneError("scene '" + scene_.name +
+                     "' has a network_grid, and peers and nodes cannot yet put bodies on one: "
+                     "expected network_grid = 0, or a server alone");
   for (const Entity& entity : start_.entities()) {
     extent_max_ = std::max(extent_max_, entity.half_extent.maxCoeff());
     speed_max_ = std::max(speed_max_, start_.velocity(entity.id).norm());

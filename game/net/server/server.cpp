@@ -220,6 +220,7 @@ void Server::receive_key(std::uint32_t player, bool is_down, rti::Bytes paramete
 }
 
 double Server::simulate(double until) {
+  until = std::max(game_.now(), game_.network_grid().instants().snapped(until));
   const bool has_arrived = shared_ != nullptr || budget_.advance(game_, until);
   turns_.stepped(has_arrived);
   // Alone: keys of the very instant in which it was cut short are not felt yet.

@@ -212,6 +212,18 @@ void Engine::place(std::uint32_t puck, const RealVector& position, const RealVec
   settle();
 }
 
+void Engine::move(std::uint32_t body, const Moved& moved) {
+  assert(!bodies_[body].is(Body::lasting) && bodies_[body].kind != BodyKind::post &&
+         moved.position.allFinite() && moved.velocity.allFinite());
+  if (observers_.journal != nullptr) observers_.journal->time = clock_.now;
+  bodies_.rebase(body, clock_.now);
+  bodies_.put(body, moved.position, moved.velocity, clock_.now);
+  if (spec_.surface_friction) bodies_.set_spin(body, moved.spin);
+  places_.remove(body);
+  list(body, moved.position);
+  settle();
+}
+
 void Engine::set_thrust(std::uint32_t bat, const RealVector& acceleration) {
   assert(bodies_[bat].kind == BodyKind::bat && acceleration.allFinite());
   if (bodies_.build(bat).thrust == acceleration) return;

@@ -71,6 +71,12 @@ class Engine {
   void remove(std::uint32_t body);
   void set_thrust(std::uint32_t bat, const RealVector& acceleration);
   void place(std::uint32_t puck, const RealVector& position, const RealVector& velocity);
+  struct Moved {
+    RealVector position, velocity;
+    Real spin;
+  };
+  /// Elsewhere, and otherwise, at now: a body in play that nothing holds. The place must be free.
+  void move(std::uint32_t body, const Moved& moved);
   /// As World's, whose `budget` is null here without one.
   std::optional<Goal> advance(Real until, EventBudget* budget = nullptr);
 
