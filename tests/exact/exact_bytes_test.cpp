@@ -13,8 +13,9 @@ struct Rate {
   double payload = 0.0, wire = 0.0, told = 0.0, entries = 0.0;
 };
 
-Rate measured(double rate_hz, double view_fraction, double seconds) {
-  const Scene scene = load_scene(rink::test::source_folder() + "/scenes/crowd.toml");
+Rate measured(double rate_hz, double view_fraction, double seconds, double network_grid = 0.0) {
+  Scene scene = load_scene(rink::test::source_folder() + "/scenes/crowd.toml");
+  scene.network_grid = network_grid;
   constexpr std::uint32_t clients = 6;
   LockstepRink rink(scene, {.scheme = view_fraction >= 1.0 ? "none" : "region",
                             .clients = clients,
@@ -54,6 +55,11 @@ TEST(ExactBytes, WhoSeesAllOfTheCrowdIsSentLessThanFourKilobytesASecond) {
 TEST(ExactBytes, AViewOfATwentiethIsSentLessThanTwoAndAHalf) {
   const Rate rate = measured(20.0, 0.05, 6.0);
   EXPECT_LT(rate.wire, 2500.0);
+}
+
+TEST(ExactBytes, OnTheNetworkGridAViewOfATwentiethIsSentLessThanOneAndAHalf) {
+  const Rate rate = measured(20.0, 0.05, 6.0, 20.0);
+  EXPECT_LT(rate.wire, 1500.0);
 }
 
 }  // namespace

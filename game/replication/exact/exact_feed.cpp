@@ -34,6 +34,7 @@ ExactFeed::ExactFeed(const Game& game, const Scene& scene, const rti::Fom& fom, 
   assert(tick_s > 0.0);
   for (const Bat& bat : scene.bodies.bats) thrusts_.push_back(bat.thrust);
   start_.spec = game.world().spec();
+  start_.grid = game.network_grid().instants();
   start_.tick_s = tick_s;
 }
 
@@ -220,7 +221,8 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
   }
   bytes_.clear();
   rti::BitWriter writer(bytes_);
-  exact::exchange(writer, message_, context, drives_);
+  [[maybe_unused]] const bool is_written = exact::exchange(writer, message_, context, drives_);
+  assert(is_written);
   writer.finish();
   if (bytes_.size() > (message_.start ? start_bytes_max : rti::HostMessage::size_max))
     return leave_to_rti(client, execution);

@@ -23,6 +23,7 @@ struct ExactPost {
 /// Begins a conversation, or begins it anew: the client knows nobody but the posts.
 struct ExactStart {
   physics::WorldSpec spec;
+  GridInstants grid;              ///< the scene's network grid
   double tick_s = 0.0;            ///< between two ticks, if they are on time
   std::uint32_t object_base = 0;  ///< mostly a body's object less its number
   std::vector<ExactClass> classes;
@@ -191,7 +192,7 @@ bool exchange_entry(Stream& stream, ExactEntry& entry, const ExactStart& start, 
   if (kind.kind == physics::BodyKind::bat && !small(stream, entry.player, exact_number_max, 5))
     return false;
   return kind.kind == physics::BodyKind::post ||
-         exchange(stream, entry.state, kind, start.spec, now);
+         exchange(stream, entry.state, kind, {start.spec, start.grid, now});
 }
 
 template <class Stream>
@@ -203,7 +204,7 @@ bool exchange_changes(Stream& stream, ExactTick& tick, const ExactContext& conte
     if (!rising(stream, each.rank, last, context.class_of.size())) return false;
     const ExactClass& kind = start.classes[context.class_of[each.rank]];
     if (kind.kind == physics::BodyKind::post ||
-        !exchange(stream, each.state, kind, start.spec, tick.time))
+        !exchange(stream, each.state, kind, {start.spec, start.grid, tick.time}))
       return false;
   }
   last = -1;
@@ -297,8 +298,9 @@ bool exchange(Stream& stream, ExactClass& each, std::size_t materials) {
 
 template <class Stream>
 bool exchange(Stream& stream, ExactStart& start) {
-  if (!exchange(stream, start.spec) || !within(stream, start.tick_s, 0.0, 10.0) ||
-      !stream.bits(start.object_base, 32) || !size(stream, start.classes) ||
+  if (!exchange(stream, start.spec) || !within(stream, start.grid.rate_hz, 0.0, 1000.0) ||
+      !within(stream, start.tick_s, 0.0, 10.0) || !stream.bits(start.object_base, 32) ||
+      !size(stream, start.classes) ||
       !std::ranges::all_of(start.classes,
                            [&](ExactClass& each) {
                              return exchange(stream, each, start.spec.restitution.material_count());

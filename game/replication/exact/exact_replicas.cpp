@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "game/replication/exact/rounded_play.h"
+
 namespace rink::game {
 namespace {
 
@@ -27,8 +29,7 @@ const ExactReplicas::Body* ExactReplicas::find(std::uint32_t number) const {
 }
 
 ExactReplicas::Result ExactReplicas::refuse(const std::string& why) {
-  is_exact_ = false;
-  awaits_start_ = true;
+  is_exact_ = false, awaits_start_ = true;
   error_ = why;
   return wrong_in_row_ >= wrong_in_row_max ? Result::hopeless : Result::resend;
 }
@@ -184,19 +185,19 @@ void ExactReplicas::set_aside(const ExactTick& tick) {
 
 void ExactReplicas::play(const ExactTick& tick) {
   part_->begin_window();
-  const auto advance = [this](double until) {
-    if (until > part_->world().now()) part_->advance(until);
-  };
+  std::vector<std::uint32_t> moving;
+  for (const Body& body : bodies_)
+    if (body.is_computed && start_->grid.exist()) moving.push_back(body.number);
   for (const ExactKey& key : tick.keys) {
     Body* const bat = known_at(ranks_.bats[key.bat]);
     assert(bat != nullptr);
     bat->drive = key.after;
     if (!bat->is_computed) continue;
-    advance(key.time);
+    advance(*part_, key.time, start_->grid, moving);
     part_->set_thrust(bat->number,
                       class_of(*bat).thrust * physics::Vector2(key.after.x, key.after.y));
   }
-  advance(tick.time);
+  advance(*part_, tick.time, start_->grid, moving);
   part_->begin_window();  // what follows is between two ticks
 }
 

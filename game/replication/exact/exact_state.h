@@ -6,9 +6,12 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "game/control/network_grid.h"
 #include "game/physics/body_state.h"
+#include "game/physics/rounding/motion_grid.h"
 #include "rti/wire/bit_stream.h"
 
 namespace rink::game {
@@ -72,6 +75,13 @@ inline bool are_impacts_over(const physics::BodyState& body, double now, double 
 inline bool are_hops_over(const physics::BodyState& body, double now, double contact_time) {
   return body.hops == 0 && now - body.last_hop > 8.0 * contact_time;
 }
+
+/// What a state is told against.
+struct ExactInstant {
+  const physics::WorldSpec& spec;
+  GridInstants grid;
+  double now = 0.0;  ///< s
+};
 
 /// Bodies are numbered below this.
 inline constexpr std::uint32_t exact_number_max = 1u << 24;
@@ -197,6 +207,100 @@ bool exchange(Stream& stream, physics::RestContact& rest) {
   return std::isfinite(rest.age.time);
 }
 
+/// The whole number of steps that `value` is, if it is one that fits 52 bits.
+inline std::optional<std::int64_t> steps_of(double value, double step) {
+  const double steps = value / step;
+  if (!(std::abs(steps) < 0x1p52) || std::nearbyint(steps) != steps ||
+      std::signbit(value) != (value < 0.0))
+    return std::nullopt;
+  return static_cast<std::int64_t>(steps);
+}
+
+/// A flight that begins on the network grid, in whole numbers.
+struct GridFlight {
+  static constexpr std::int64_t margin = std::int64_t{1}
+                                         << 20;  ///< beyond the field, in steps: 1 m
+  std::uint64_t ago = 0;                         ///< in instants before the last one
+  std::int64_t x = 0, y = 0, vx = 0, vy = 0;
+};
+
+/// Bits of a place along a side of `length` [m].
+inline unsigned place_bits(double length) {
+  const double steps = std::ceil(length / physics::MotionGrid::position_step);
+  return static_cast<unsigned>(
+      std::bit_width(static_cast<std::uint64_t>(steps) + 2 * GridFlight::margin));
+}
+
+/// Nothing if it begins elsewhere.
+inline std::optional<GridFlight> on_grid(const physics::Flight& f, const ExactInstant& instant) {
+  using physics::MotionGrid;
+  if (!instant.grid.exist()) return std::nullopt;
+  const std::uint64_t number = instant.grid.nearest(f.time), last = instant.grid.last(instant.now);
+  if (number > last || instant.grid.at(number) != f.time) return std::nullopt;
+  const auto x = steps_of(f.x, MotionGrid::position_step),
+             y = steps_of(f.y, MotionGrid::position_step),
+             vx = steps_of(f.vx, MotionGrid::velocity_step),
+             vy = steps_of(f.vy, MotionGrid::velocity_step);
+  if (!x || !y || !vx || !vy) return std::nullopt;
+  const auto is_near = [](std::int64_t place, double length) {
+    return place + GridFlight::margin >= 0 &&
+           std::bit_width(static_cast<std::uint64_t>(place + GridFlight::margin)) <=
+               place_bits(length);
+  };
+  if (!is_near(*x, instant.spec.field.length) || !is_near(*y, instant.spec.field.width))
+    return std::nullopt;
+  return GridFlight{last - number, *x, *y, *vx, *vy};
+}
+
+template <class Stream>
+bool place(Stream& stream, std::int64_t& value, double length) {
+  std::uint64_t word = static_cast<std::uint64_t>(value + GridFlight::margin);
+  if (!stream.bits(word, place_bits(length))) return false;
+  value = static_cast<std::int64_t>(word) - GridFlight::margin;
+  return true;
+}
+
+/// Half a metre a second in 18 bits.
+template <class Stream>
+bool speed(Stream& stream, std::int64_t& value) {
+  std::uint64_t word = folded(value);
+  if (!count(stream, word, std::uint64_t{1} << 53, 17)) return false;
+  value = unfolded(word);
+  return true;
+}
+
+template <class Stream>
+bool exchange(Stream& stream, GridFlight& f, const ExactInstant& instant) {
+  return count(stream, f.ago, std::uint64_t{1} << 40, 3) &&
+         place(stream, f.x, instant.spec.field.length) &&
+         place(stream, f.y, instant.spec.field.width) && speed(stream, f.vx) && speed(stream, f.vy);
+}
+
+/// Where and when its flight began, and how: on the network grid in short, else every bit.
+template <class Stream>
+bool exchange_flight(Stream& stream, physics::Flight& f, const ExactInstant& instant) {
+  using physics::MotionGrid;
+  std::optional<GridFlight> short_form;
+  if constexpr (!Stream::is_reading) short_form = on_grid(f, instant);
+  bool is_on_grid = short_form.has_value();
+  if (instant.grid.exist() && !stream.flag(is_on_grid)) return false;
+  if (!is_on_grid)
+    return near(stream, f.x, 3) && near(stream, f.y, 2) && near(stream, f.vx, -1) &&
+           near(stream, f.vy, -1) && like(stream, f.time, instant.now);
+  if constexpr (Stream::is_reading) short_form.emplace();
+  if (!exchange(stream, *short_form, instant)) return false;
+  if constexpr (Stream::is_reading) {
+    const std::uint64_t last = instant.grid.last(instant.now);
+    if (short_form->ago > last) return false;
+    f.time = instant.grid.at(last - short_form->ago);
+    f.x = static_cast<double>(short_form->x) * MotionGrid::position_step;
+    f.y = static_cast<double>(short_form->y) * MotionGrid::position_step;
+    f.vx = static_cast<double>(short_form->vx) * MotionGrid::velocity_step;
+    f.vy = static_cast<double>(short_form->vy) * MotionGrid::velocity_step;
+  }
+  return true;
+}
+
 /// All that a state may have beside its flight, each part behind a flag that says whether it is as
 /// of a body that flies by its own law and was hit long ago.
 template <class Stream>
@@ -229,10 +333,11 @@ bool exchange_rest(Stream& stream, ExactState& state, const physics::BodyState& 
           }));
 }
 
-/// `state` of a body of `exact_class` as of `now` [s]. A reader's state has defaults.
+/// `state` of a body of `exact_class` as of `instant`. A reader's state has defaults.
 template <class Stream>
 bool exchange(Stream& stream, ExactState& state, const ExactClass& exact_class,
-              const physics::WorldSpec& spec, double now) {
+              const ExactInstant& instant) {
+  const auto& [spec, grid, now] = instant;
   const bool is_bat = exact_class.kind == physics::BodyKind::bat;
   if (is_bat && !exchange(stream, state.drive)) return false;
   physics::BodyState own = body_of(exact_class, spec);
@@ -247,9 +352,7 @@ bool exchange(Stream& stream, ExactState& state, const ExactClass& exact_class,
                b.mouth == 0 && are_impacts_over(b, now, spec.contact_time) &&
                are_hops_over(b, now, spec.contact_time);
   }
-  physics::Flight& f = state.body.flight;
-  return near(stream, f.x, 3) && near(stream, f.y, 2) && near(stream, f.vx, -1) &&
-         near(stream, f.vy, -1) && like(stream, f.time, now) && stream.flag(is_plain) &&
+  return exchange_flight(stream, state.body.flight, instant) && stream.flag(is_plain) &&
          (is_plain || exchange_rest(stream, state, own, now, spec.contact_time));
 }
 

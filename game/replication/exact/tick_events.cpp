@@ -15,12 +15,14 @@ std::int8_t sign(double value) {
 
 Drive drive(const physics::Vector2& thrust) { return {sign(thrust.x()), sign(thrust.y())}; }
 
-/// Who touches whom for longer than an instant.
+/// Who touches whom for longer than an instant. Posts never move, and join nobody.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts_in(const physics::World& world) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  const auto can_move = [&world](physics::Partner p) {
+    return physics::is_body(p) && world.kind({p}) != physics::BodyKind::post;
+  };
   for (const physics::RestContact& rest : physics::WorldJournal::rest_contacts(world))
-    if (physics::is_body(rest.low) && physics::is_body(rest.high))
-      pairs.emplace_back(rest.low, rest.high);
+    if (can_move(rest.low) && can_move(rest.high)) pairs.emplace_back(rest.low, rest.high);
   auto jams = physics::WorldJournal::jams(world);
   std::ranges::stable_sort(jams, {}, [](const auto& each) { return each.second; });
   for (std::size_t k = 1; k < jams.size(); ++k)
@@ -44,6 +46,7 @@ TickEvents::TickEvents(const Game& game) {
 void TickEvents::look(const Game& game) {
   for (const Entity& entity : game.removed()) removed_.push_back(entity.id.index);
   was_out_of_play_.resize(game.world().body_count());
+  for (const EntityId each : game.network_grid().left_off()) left_off_.push_back(each.index);
   for (const ScoredGoal& goal : game.scored())  // it may be back within the tick
     if (game.world().is_in_play(goal.puck)) was_out_of_play_[goal.puck.index] = 1;
 }
@@ -101,6 +104,8 @@ void TickEvents::close(const Game& game) {
   list_drive_changes();
   join_events();
   for (const std::uint32_t body : removed_) concern(body);
+  // Who does not know all that is near to it would put it on the grid.
+  for (const std::uint32_t body : left_off_) concern(body), was_out_of_play_[body] = 1;
   Pairs contacts = contacts_in(world);
   contacts_before_.insert(contacts_before_.end(), contacts.begin(), contacts.end());
   join_contacts(contacts_before_);
@@ -124,6 +129,7 @@ void TickEvents::close(const Game& game) {
 void TickEvents::forget() {
   for (const std::uint32_t body : concerned_) is_concerned_[body] = 0;
   concerned_.clear(), groups_.clear(), drive_changes_.clear(), removed_.clear();
+  left_off_.clear();
   journal_.forget();
 }
 

@@ -37,7 +37,8 @@ class TickEvents {
 
   struct Group {
     std::span<const std::uint32_t> bodies;  ///< one or more
-    bool is_unforeseeable = false;          ///< the rules moved one of them: nobody can compute it
+    bool is_unforeseeable = false;  ///< the rules moved one of them, or it has no room on the
+                                    ///< network grid: nobody can compute it
   };
   /// Those of two and more bodies, and those that nobody can compute.
   std::span<const Group> groups() const { return groups_; }
@@ -60,7 +61,7 @@ class TickEvents {
   physics::WorldJournal journal_;
   std::vector<Drive> drives_;  ///< by body
   std::vector<DriveChange> drive_changes_;
-  std::vector<std::uint32_t> removed_;
+  std::vector<std::uint32_t> removed_, left_off_;
   std::vector<std::uint8_t> was_out_of_play_;  ///< by body, as of the tick before
   Pairs contacts_before_;
   std::vector<std::uint32_t> parents_;  ///< by body: a forest of the groups
