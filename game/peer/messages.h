@@ -6,18 +6,16 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "game/peer/message_head.h"
+#include "game/peer/state_fields.h"
 #include "game/peer/verdict_parts.h"
 #include "game/physics/subdomain.h"
 
 namespace rink::peer {
-
-using physics::BodyState;
-using physics::RestContact;
 
 /// From `time` [s] on, `bat` has the acceleration `thrust` [m/s^2].
 struct Key {
@@ -70,8 +68,9 @@ struct FreeFlightState {
 };
 
 /// Sent at a window's start: bodies of the sender whose state the receiver lacks and must simulate
-/// or own, all rest contacts of the sender's bodies that the receiver now has, the keys of the
-/// window, and the observations for the receiver's players.
+/// or own (of its ghosts those that it asks for, Verdict::wanted), all rest contacts of the
+/// sender's bodies that the receiver now has, the keys of the window, and the observations for the
+/// receiver's players.
 struct Handover {
   struct Body {
     std::uint32_t number = 0;
@@ -170,56 +169,15 @@ struct Verdict {
   /// Where the sender looks beyond its halo, in the same windows.
   static constexpr std::size_t annexes_max = 64;
   std::vector<Annex> annexes{};
+  /// If the window is final: ghosts that were not what their owners claim, or may remember other
+  /// impacts, so that the sender needs their states. All others are their owners' bodies bit for
+  /// bit.
+  std::vector<std::uint32_t> wanted{};
   bool is_for_strangers() const {
     return reach > 0.0f || !watchers.empty() || !presses.empty() || !annexes.empty();
   }
+  bool has_more() const { return is_for_strangers() || !wanted.empty(); }
 };
-
-/// The first byte of the messages of every window: it marks which of the mostly absent parts
-/// follow. Its highest bit is always set, as in no other message that may come instead (Loss,
-/// Entry).
-class Head {
- public:
-  explicit Head(std::initializer_list<bool> parts) : count_(static_cast<int>(parts.size())) {
-    assert(parts.size() <= 7 && "the eighth bit is always set");
-    int bit = 0;
-    for (const bool is_there : parts) bits_ |= static_cast<std::uint64_t>(is_there) << bit++;
-  }
-  template <class Stream>
-  bool exchange(Stream& stream) {
-    return stream.part(bits_, 1) && bits_ >> count_ == 0x80u >> count_;
-  }
-  bool has(int part) const {
-    assert(part >= 0 && part < count_);
-    return (bits_ >> part & 1) != 0;
-  }
-
- private:
-  int count_;
-  std::uint64_t bits_ = 0x80;
-};
-
-template <class Stream>
-bool exchange(Stream& stream, BodyState& s) {
-  auto& [flight, mass, inverse_mass, half_extent, thrust, acceleration, drag, impacts_begin,
-         last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing, spin, jam, kind,
-         material, half, flags, mouth] = s;
-  return stream.numbers(flight.x, flight.y, flight.vx, flight.vy, flight.time, flight.radius, mass,
-                        inverse_mass, half_extent.x(), half_extent.y(), thrust.x(), thrust.y(),
-                        acceleration.x(), acceleration.y(), drag.x(), drag.y(), impacts_begin,
-                        last_hop, impacts, hops, repeats, repeats_instant, rest_time, slowing.x(),
-                        slowing.y(), spin, jam) &&
-         stream.choice(kind, physics::BodyKind::post) && stream.number(material) &&
-         stream.choice(half, physics::Half::both) && stream.numbers(flags, mouth);
-}
-
-template <class Stream>
-bool exchange(Stream& stream, RestContact& rest) {
-  auto& [low, high, axis, pull_time, force, turn_time, age] = rest;
-  return stream.numbers(low, high, axis, pull_time, force, turn_time, age.time, age.lower,
-                        age.higher, age.rank) &&
-         stream.truth(age.follows_keys) && (axis == 0 || axis == 1);
-}
 
 template <class Stream>
 bool exchange(Stream& stream, Key& key) {
@@ -239,19 +197,9 @@ bool exchange(Stream& stream, Observation::Puck& puck) {
 }
 
 template <class Stream>
-bool exchange(Stream& stream, Handover::Body& body) {
-  return stream.number(body.number) && exchange(stream, body.state);
-}
-
-template <class Stream>
 bool exchange(Stream& stream, FreeFlightState& free_flights) {
   return stream.numbers(free_flights.number, free_flights.position.x(), free_flights.position.y(),
                         free_flights.velocity.x(), free_flights.velocity.y(), free_flights.time);
-}
-
-template <class Stream>
-bool exchange(Stream& stream, Claims::Body& body) {
-  return stream.numbers(body.number, body.flight_count) && stream.truth(body.is_known);
 }
 
 template <class Stream>
@@ -261,20 +209,59 @@ bool exchange(Stream& stream, ClaimedFlight& flight) {
 }
 
 template <class Stream, class Item>
-bool exchange_list(Stream& stream, std::vector<Item>& list) {
-  if (!stream.size(list)) return false;
-  for (Item& item : list)
-    if (!exchange(stream, item)) return false;
-  return true;
-}
-
-template <class Stream, class Item>
-bool exchange_short_list(Stream& stream, std::vector<Item>& list) {
-  if (!stream.short_size(list)) return false;
+bool exchange_items(Stream& stream, std::vector<Item>& list) {
   return std::all_of(list.begin(), list.end(), [&](Item& item) {
     if constexpr (std::is_integral_v<Item>) return stream.number(item);
     else return exchange(stream, item);
   });
+}
+
+/// Each as its difference from the one before it: bodies of one scene have much in common.
+template <class Stream>
+bool exchange_items(Stream& stream, std::vector<Handover::Body>& bodies) {
+  NumberGaps gaps;
+  const BodyState none;
+  const BodyState* before = &none;
+  for (auto& [number, state] : bodies) {
+    if (!gaps.exchange(stream, number) || !exchange_changes(stream, state, *before)) return false;
+    before = &state;
+  }
+  return true;
+}
+
+template <class Stream>
+bool exchange_items(Stream& stream, std::vector<Claims::Body>& bodies) {
+  NumberGaps gaps;
+  return std::all_of(bodies.begin(), bodies.end(), [&](Claims::Body& body) {
+    std::uint64_t known_and_count =
+        std::uint64_t{body.flight_count} << 1 | static_cast<std::uint64_t>(body.is_known);
+    if (!gaps.exchange(stream, body.number) || !stream.varint(known_and_count)) return false;
+    if constexpr (Stream::is_reading) {
+      body.is_known = (known_and_count & 1) != 0;
+      body.flight_count = static_cast<std::uint32_t>(known_and_count >> 1);
+    }
+    return known_and_count >> 33 == 0;
+  });
+}
+
+template <class Stream, class Item>
+bool exchange_list(Stream& stream, std::vector<Item>& list) {
+  return stream.size(list) && exchange_items(stream, list);
+}
+
+template <class Stream, class Item>
+bool exchange_short_list(Stream& stream, std::vector<Item>& list) {
+  return stream.short_size(list) && exchange_items(stream, list);
+}
+
+/// Numbers of bodies, in fewest bytes where they rise.
+template <class Stream>
+bool exchange_numbers(Stream& stream, bool are_there, std::vector<std::uint32_t>& numbers) {
+  if (!are_there) return numbers.clear(), true;
+  NumberGaps gaps;
+  return stream.short_size(numbers) && !numbers.empty() &&
+         std::all_of(numbers.begin(), numbers.end(),
+                     [&](std::uint32_t& number) { return gaps.exchange(stream, number); });
 }
 
 /// A list that is marked as present, which then is not empty.
@@ -347,11 +334,24 @@ bool exchange_instants(Stream& stream, bool are_there, Verdict& message) {
          message.critical.size() <= Verdict::critical_max;
 }
 
+template <class Stream>
+bool exchange_for_strangers(Stream& stream, bool is_there, Verdict& message) {
+  if (!is_there) {
+    message.reach = 0.0f, message.watchers = {}, message.presses = {}, message.annexes = {};
+    return true;
+  }
+  return stream.number(message.reach) && message.reach >= 0.0f &&
+         exchange_short_list(stream, message.watchers) &&
+         exchange_short_list(stream, message.presses) &&
+         exchange_short_list(stream, message.annexes) &&
+         message.annexes.size() <= Verdict::annexes_max && message.is_for_strangers();
+}
+
 /// `is_alone`: it tells its window itself.
 template <class Stream>
 bool exchange(Stream& stream, Verdict& message, bool is_alone = true) {
   Head head({message.accepts, message.is_about_instants(), message.leaves, !message.listed.empty(),
-             !message.goals.empty(), !message.admission.is_empty(), message.is_for_strangers()});
+             !message.goals.empty(), !message.admission.is_empty(), message.has_more()});
   if (!head.exchange(stream) || (is_alone && !stream.varint(message.window)) ||
       !stream.number(message.halo) || !(message.halo >= 0.0f))
     return false;
@@ -365,15 +365,10 @@ bool exchange(Stream& stream, Verdict& message, bool is_alone = true) {
     return false;
   if (!head.has(5)) message.admission = {};
   else if (!exchange(stream, message.admission) || message.admission.is_empty()) return false;
-  if (!head.has(6)) {
-    message.reach = 0.0f, message.watchers = {}, message.presses = {}, message.annexes = {};
-    return true;
-  }
-  return stream.number(message.reach) && message.reach >= 0.0f &&
-         exchange_short_list(stream, message.watchers) &&
-         exchange_short_list(stream, message.presses) &&
-         exchange_short_list(stream, message.annexes) &&
-         message.annexes.size() <= Verdict::annexes_max && message.is_for_strangers();
+  Head more({message.is_for_strangers(), !message.wanted.empty()});
+  if (head.has(6) && (!more.exchange(stream) || !(more.has(0) || more.has(1)))) return false;
+  return exchange_for_strangers(stream, head.has(6) && more.has(0), message) &&
+         exchange_numbers(stream, head.has(6) && more.has(1), message.wanted);
 }
 
 /// With a checksum of four bytes at the end.

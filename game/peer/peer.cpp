@@ -167,8 +167,9 @@ const Verdict& Peer::judge() {
   own.watchers = players_.strangers_due(window_);
   own.presses = players_.take_strange_presses();
   const double needed = trace_.needed_halo(halos_.own_zones());
-  const bool shows_cause =
-      annexes_.announce(agrees && needed <= halos_.own(), window_, verdicts_, own);
+  const bool accepts = agrees && needed <= halos_.own();
+  if (accepts) own.wanted = check_.wanted();
+  const bool shows_cause = annexes_.announce(accepts, window_, verdicts_, own);
   counters_.verdict_bytes += measured(own);  // what is decided now has a fixed length
   return verdicts_.decide(std::move(own), agrees, needed, shows_cause);
 }
@@ -182,6 +183,7 @@ Outcome Peer::conclude() {
   for (PeerNumber from = 0; from < halos_.peer_count(); ++from) {
     players_.stamp(from, verdicts_.of(from).presses, window_.end, keys_);
     share_.expect(from, {});
+    handovers_.note_wanted(from, verdicts_.of(from).wanted);
   }
   told_ = outcome == Outcome::final ? window_.end : window_.start;
   const bool is_safe = homes_.are_safe();

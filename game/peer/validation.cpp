@@ -232,6 +232,8 @@ std::string Validator::fault_of(const Verdict& message) const {
   for (const Goal& goal : message.goals)
     if (!is_of_kind(goal.puck, physics::BodyKind::puck))
       return named("claims a goal of puck", goal.puck, "which is none");
+  for (const std::uint32_t body : message.wanted)
+    if (!has_body(body)) return named("asks for body", body, "which does not exist");
   return first_fault(message.presses);
 }
 

@@ -90,6 +90,24 @@ TEST(ClaimCheck, AgreesWithAnHonestOwnerAndDoubtsAFalseDigest) {
   EXPECT_THAT(left.accusation.text(), StartsWith("peer 1 claims what cannot be agreed with of"));
 }
 
+TEST(ClaimCheck, WantsTheStatesOfMovedGhostsOnWhichItDoesNotAgree) {
+  const physics::World world = meeting();
+  Side left(world, 0);
+  const Side right(world, 1);
+  Claims claims = right.trace.claims_for(0, right.window, right.halos);
+  const auto wanted = [&] {
+    left.check.receive(1, claims);
+    EXPECT_TRUE(left.check.are_possible(left.window)) << left.accusation.text();
+    left.check.agree(left.window);
+    return left.check.wanted();
+  };
+  EXPECT_THAT(wanted(), IsEmpty());
+  claims.flights.front().state ^= 1;
+  EXPECT_THAT(wanted(), ElementsAre(1u));
+  claims.bodies.clear(), claims.flights.clear();
+  EXPECT_THAT(wanted(), IsEmpty()) << "its owner says that it is as it was";
+}
+
 TEST(ClaimCheck, RefusesAnotherWindow) {
   Side left(meeting(), 0);
   left.check.receive(1, Claims{.window = 5, .bodies = {}, .flights = {}, .presses = {}});
@@ -223,7 +241,13 @@ TEST(LivePlayers, KeepEarlyKeysOfABatOnItsWayForOneWindow) {
 TEST(Handovers, BringWhatComesIntoAnotherHalo) {
   const physics::World world = meeting();
   Side left(world, 0), right(world, 1);
-  const Handover sent = left.handovers.for_next(1, left.window, 0.1, left.homes, left.trace);
+  const auto send = [&] {
+    return left.handovers.for_next(1, left.window, 0.1, left.homes, left.trace);
+  };
+  const Handover usual = send();
+  EXPECT_EQ(usual.bodies.size() + usual.free_flights.size(), 0u) << "it has them, and can tell";
+  left.handovers.note_wanted(1, {3, 0});
+  const Handover sent = send();
   EXPECT_THAT(left.share.coming(1), ElementsAre(0u, 3u));
   ASSERT_EQ(sent.bodies.size() + sent.free_flights.size(), 1u) << "the bat is as it was";
   right.check.receive(0, left.trace.claims_for(1, left.window, left.halos));
@@ -242,6 +266,7 @@ std::string accused(
     const physics::World& world, const std::function<void(Handover&)>& lie,
     const std::function<void(Claims&)>& alter = [](Claims&) {}) {
   Side left(world, 0), right(world, 1);
+  left.handovers.note_wanted(1, {0});
   Handover sent = left.handovers.for_next(1, left.window, 0.1, left.homes, left.trace);
   Claims claims = left.trace.claims_for(1, left.window, left.halos);
   alter(claims);

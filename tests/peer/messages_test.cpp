@@ -104,6 +104,56 @@ TEST(Messages, GrowByWhatIsThereAlone) {
   EXPECT_EQ(written(handover).size(), nothing + 1 + 2 * 44);
 }
 
+/// docs/peer-to-peer.md, "What is said in every window".
+TEST(Messages, SayOfBodiesWhatTheOnesBeforeThemHaveNot) {
+  BodyState still;
+  still.flight.radius = 0.04, still.mass = 0.2, still.inverse_mass = 5.0;
+  BodyState flying = still;
+  flying.flight = {.x = 1.0, .y = 1.5, .vx = -2.0, .vy = 0.5, .time = 0.25, .radius = 0.04};
+  Handover message;
+  message.window = 3, message.bodies = {{7, still}};
+  const std::size_t without = written(message).size();
+  message.bodies.push_back({8, flying});
+  expect_kept(message);
+  const std::vector<std::uint8_t> bytes = written(message);
+  ASSERT_EQ(bytes.size(), without + 2 + 5 * 8);
+  const auto body = bytes.end() - 4 - 2 - 5 * 8;  // before the checksum
+  EXPECT_THAT(std::vector(body, body + 2), testing::ElementsAre(0x02, 0x1f));
+  message.bodies.back().state = still;
+  EXPECT_EQ(written(message).size(), without + 2) << "one like it";
+  Handover received;
+  ASSERT_TRUE(read(bytes, received));
+  EXPECT_TRUE(are_same(received.bodies.back().state, flying));
+}
+
+TEST(Messages, WithFieldsThatNoStateHasAreRefused) {
+  for (const bool is_state : {true, false}) {  // 32 fields, and one more
+    const std::uint8_t top = is_state ? 0x0f : 0x10;
+    std::vector<std::uint8_t> bytes{0x80 | 1, 3, 1, 2, 0x80, 0x80, 0x80, 0x80, top};
+    BodyState state;
+    StateFields fields(state);
+    for (std::size_t field = 28; field < fields.count(); ++field)
+      bytes.insert(bytes.end(), fields.size_of(field), 0);
+    physics::add_checksum(bytes, 4);
+    Handover received;
+    EXPECT_EQ(read(bytes, received), is_state);
+  }
+}
+
+TEST(Messages, KeepListsOfBodiesInAnyOrder) {
+  const std::vector<std::uint32_t> wanted{5, 0, 0xffffffff, 7, 7, 0x80000000};
+  const Verdict verdict{.window = 5, .accepts = true, .wanted = wanted};
+  expect_kept(verdict);
+  Verdict received;
+  ASSERT_TRUE(read(written(verdict), received));
+  EXPECT_EQ(received.wanted, wanted);
+  Verdict rising = verdict;
+  rising.wanted = {60, 61, 62, 100};
+  EXPECT_EQ(written(rising).size(),
+            written(Verdict{.window = 5, .accepts = true}).size() + 1 + 1 + 4)
+      << "a head, a count and a byte each";
+}
+
 /// A loss may come instead of any of them, and all look for it in whatever they do not understand.
 TEST(Messages, OfAWindowAreNeverTakenForALossNorALossForThem) {
   Loss loss{.step = 12, .gone = {0, 1}, .finished = {1}};

@@ -231,6 +231,9 @@ TEST(Validator, SeesClaimsVerdictsPartsAndFaceOffsThatCannotBe) {
       "");
   for (const std::uint32_t puck : {nobody, honest.bat})
     EXPECT_NE(validator.fault_of(Verdict{.window = 1, .goals = {{0.1, puck, true}}}), "");
+  EXPECT_EQ(validator.fault_of(Verdict{.window = 1, .wanted = {honest.puck}}), "");
+  EXPECT_EQ(validator.fault_of(Verdict{.window = 1, .wanted = {honest.puck, nobody}}),
+            "asks for body " + std::to_string(nobody) + " which does not exist");
   EXPECT_NE(validator.fault_of(FaceOffWord{.puck = nobody, .taken = 0, .body = {}}, now), "");
   Handover::Body lie = honest.handover.bodies[honest.puck];
   lie.state.flight.vx = nan;

@@ -142,6 +142,7 @@ bool ClaimCheck::agree(const Window& window) {
     is_unmoved_[k] = claimed[k].empty();
     doubts_[k] = first_difference(ghosts[k], claimed[k], window, beyond);
   }
+  weigh();
   return std::ranges::none_of(beyond, [&](const auto& flight) { return may_touch_own(flight); }) &&
          std::ranges::none_of(trace_.mixed(),
                               [&](const auto& event) { return has_doubtful(event); });
@@ -176,6 +177,19 @@ void ClaimCheck::weigh() {
     if (!is_tainted && !has_doubtful({begin, end})) continue;
     for (std::size_t k = begin; k < end; ++k) is_tainted_[changes[k].body] = true;
   }
+}
+
+bool ClaimCheck::is_uncertain(std::uint32_t ghost) const {
+  return is_doubtful(ghost) || (!is_tainted_.empty() && is_tainted_[ghost]);
+}
+
+/// If its owner claims no event of it, it is as it was, and known.
+std::vector<std::uint32_t> ClaimCheck::wanted() const {
+  std::vector<std::uint32_t> wanted;
+  const std::vector<std::uint32_t>& ghosts = share_.roles().ghosts();
+  for (std::size_t k = 0; k < doubts_.size(); ++k)
+    if (!is_unmoved_[k] && is_uncertain(ghosts[k])) wanted.push_back(ghosts[k]);
+  return wanted;
 }
 
 ClaimCheck::Flights ClaimCheck::claims_of(std::uint32_t ghost) const {
@@ -229,8 +243,8 @@ void ClaimCheck::correct(Share& share) {
   const std::vector<std::uint32_t>& ghosts = share.roles().ghosts();
   assert(&share == &share_ && doubts_.size() == ghosts.size());
   for (std::size_t k = 0; k < ghosts.size(); ++k)
-    if (doubts_[k] < infinity) share.correct(ghosts[k], is_unmoved_[k]);
-  doubts_.clear();
+    if (is_uncertain(ghosts[k])) share.correct(ghosts[k], is_unmoved_[k]);
+  doubts_.clear(), is_tainted_.clear();
 }
 
 void ClaimCheck::make_room(PeerNumber peer_count) {

@@ -26,20 +26,24 @@ class ClaimCheck {
   std::vector<Press> take_presses(PeerNumber from);
   /// True if claims name the window, and the bodies that are expected of each peer.
   bool are_possible(const Window& window);
-  /// After `are_possible` was true: checks parts (a) and (b) of the rule.
+  /// After `are_possible` was true: checks parts (a) and (b) of the rule, and finds what doubtful
+  /// ghosts may have changed here.
   bool agree(const Window& window);
   /// Reports the owner of the first doubtful ghost, if there is one.
   void blame_doubted();
 
   /// Whether the ghost, after `agree`, ceased to be what its owner says.
   bool is_doubtful(std::uint32_t ghost) const;
-  /// Finds what else a doubtful ghost may have changed here. Call it before `contradicts`.
-  void weigh();
+  /// Whether what happened to the ghost here may not be all that did: it is doubtful, or was in an
+  /// event with one that was. If its owner claims events of it, only the owner's state will do.
+  bool is_uncertain(std::uint32_t ghost) const;
+  /// The ghosts whose states the owners must send (Verdict::wanted).
+  std::vector<std::uint32_t> wanted() const;
   /// Whether what both sides agree on proves that the ghost, at the window's end, is not as its
   /// owner now says. Of a doubtful one nothing is agreed but the claims.
   bool contradicts(std::uint32_t ghost, const BodyState& state) const;
   bool contradicts(const FreeFlightState& flight) const;
-  /// Corrects doubtful ghosts in this share, which is the one that it was made for, and forgets
+  /// Corrects uncertain ghosts in this share, which is the one that it was made for, and forgets
   /// them.
   void correct(Share& share);
   void make_room(PeerNumber peer_count);
@@ -52,6 +56,7 @@ class ClaimCheck {
   Flights claims_of(std::uint32_t ghost) const;
   bool may_touch_own(const PathFlight& foreign) const;
   bool has_doubtful(const ClaimTrace::Event& event) const;
+  void weigh();
 
   const Share& share_;
   const Halos& halos_;

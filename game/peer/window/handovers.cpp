@@ -29,7 +29,8 @@ Handovers::Handovers(Share& share, const Halos& halos, const TimedKeys& keys,
       halos_(halos),
       keys_(keys),
       accusation_(accusation),
-      received_(halos.peer_count()) {}
+      received_(halos.peer_count()),
+      wanted_(halos.peer_count()) {}
 
 Handover Handovers::for_repeat(PeerNumber peer, const Window& window) {
   assert(peer < halos_.peer_count() && peer != halos_.number());
@@ -50,6 +51,12 @@ Handover Handovers::for_repeat(PeerNumber peer, const Window& window) {
   return message;
 }
 
+void Handovers::note_wanted(PeerNumber peer, std::vector<std::uint32_t> bodies) {
+  assert(peer < wanted_.size());
+  wanted_[peer] = std::move(bodies);
+  std::ranges::sort(wanted_[peer]);
+}
+
 Handover Handovers::for_next(PeerNumber peer, const Window& window, double until,
                              const Homes& homes, const ClaimTrace& trace) {
   assert(peer < halos_.peer_count() && peer != halos_.number() && until >= window.end);
@@ -62,6 +69,7 @@ Handover Handovers::for_next(PeerNumber peer, const Window& window, double until
     there.push_back(reach.body);
     if (!share_.knows(peer, reach.body))
       message.bodies.push_back({reach.body, share_.state(reach.body)});
+    else if (!holds(wanted_[peer], reach.body)) continue;
     else if (subdomain.has_flown_freely(reach.body))
       message.free_flights.push_back(FreeFlightState::of(reach.body, subdomain.flight(reach.body)));
     else if (!trace.steps_of(reach.body).empty())
@@ -86,8 +94,7 @@ void Handovers::report(PeerNumber from, std::uint32_t body) {
   accusation_.report(from, "hands over body " + std::to_string(body) + ", which it does not own");
 }
 
-void Handovers::complete(ClaimCheck& check) {
-  check.weigh();
+void Handovers::complete(const ClaimCheck& check) {
   for (PeerNumber from = 0; from < received_.size(); ++from) {
     check_states(from, check);
     complete(received_[from], from, check);
@@ -118,7 +125,7 @@ void Handovers::complete(Handover& handover, PeerNumber from, const ClaimCheck& 
       report(from, body);
       continue;
     }
-    if (!check.is_doubtful(body) && subdomain.has_flown_freely(body) &&
+    if (!check.is_uncertain(body) && subdomain.has_flown_freely(body) &&
         free_flight.is_as(subdomain.flight(body)))
       continue;
     handover.bodies.push_back({body, subdomain.state_before(body)});
@@ -182,7 +189,7 @@ Handover Handovers::enter(PeerNumber from) {
 
 void Handovers::make_room(PeerNumber peer_count) {
   assert(peer_count >= received_.size());
-  received_.resize(peer_count);
+  received_.resize(peer_count), wanted_.resize(peer_count);
 }
 
 }  // namespace rink::peer

@@ -24,15 +24,17 @@ class Handovers {
 
   /// Own bodies that `peer` repeats the window with, and has not had so far.
   Handover for_repeat(PeerNumber peer, const Window& window);
+  /// For `for_next`: the ghosts of which `peer` needs the states (Verdict::wanted).
+  void note_wanted(PeerNumber peer, std::vector<std::uint32_t> bodies);
   /// For the next window, which ends at `until` [s]: what `peer` will own, and what will be in its
-  /// halo. What it has already is left out unless it changed.
+  /// halo. What it has already is left out unless it changed and is wanted.
   Handover for_next(PeerNumber peer, const Window& window, double until, const Homes& homes,
                     const ClaimTrace& trace);
 
   void receive(PeerNumber from, Handover handover);
-  /// Before doubtful ghosts are corrected: bodies that had only free impacts get the rest of their
+  /// Before uncertain ghosts are corrected: bodies that had only free impacts get the rest of their
   /// states. Names owners whose states contradict their claims.
-  void complete(ClaimCheck& check);
+  void complete(const ClaimCheck& check);
   /// Puts the bodies that `from` has handed over, and returns its handover without bodies, keys and
   /// contacts of others.
   Handover enter(PeerNumber from);
@@ -52,7 +54,8 @@ class Handovers {
   const Halos& halos_;
   const TimedKeys& keys_;
   Accusation& accusation_;
-  std::vector<Handover> received_;  ///< by peer
+  std::vector<Handover> received_;                  ///< by peer
+  std::vector<std::vector<std::uint32_t>> wanted_;  ///< by peer, sorted
 };
 
 }  // namespace rink::peer
