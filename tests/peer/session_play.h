@@ -156,7 +156,7 @@ class Play {
         .end_of = [](std::uint64_t k) { return window_length * static_cast<double>(k); }};
     settings.keys = scene_.keys;
     // Snapshots come often, and take several steps.
-    settings.standby = {.replay_events = 20 + 150 * (number_ % 4), .piece_bytes = 900};
+    settings.standby = {.replay_work = 20 + 150 * (number_ % 4), .piece_bytes = 900};
     settings.balance_windows = balance_windows;
     settings.tree_from = tree_from;
     settings.goals = goals;

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "game/peer/assembly.h"
+#include "game/peer/standby/known_bodies.h"
 #include "game/peer/standby/packed_states.h"
 #include "game/peer/standby/standby_feed.h"
 #include "tests/peer/shared_scenes.h"
@@ -87,8 +88,8 @@ TEST(StandbyFeed, CutsASnapshotIntoPiecesThatMakeItAgain) {
   constexpr StandbyLimits limits;
   StandbyFeed feed(limits);
   EXPECT_FALSE(feed.is_due());
-  for (std::uint64_t work = 0; work < limits.replay_events; work += 100'000)
-    feed.note({.events = 100'000});
+  for (std::uint64_t work = 0; work < limits.replay_work; work += 100'000)
+    feed.note({.work = 100'000});
   EXPECT_TRUE(feed.is_due());
   feed.begin(7, bytes);
   EXPECT_FALSE(feed.is_due());
@@ -144,8 +145,20 @@ TEST(PackedStates, AreTheStatesInFewBytes) {
 }
 
 struct Bytes {
-  std::uint64_t claims = 0, records = 0, snapshots = 0;
+  std::uint64_t claims = 0, records = 0, told = 0, snapshots = 0;
 };
+
+/// What `keeper` makes of a record that was sent without what it knows.
+PartRecord heard(PartRecord record, const Peer& peer, const Peer& keeper, const Validator& scene,
+                 Bytes& sums) {
+  leave_out_known(record, keeper.number(), peer.share(), scene);
+  const std::vector<std::uint8_t> bytes = written(record);
+  sums.told += bytes.size();
+  PartRecord received;
+  EXPECT_TRUE(read(bytes, received));
+  EXPECT_EQ(put_back_known(received, keeper.share(), scene), "");
+  return received;
+}
 
 std::vector<RestContact> in_order(std::vector<RestContact> contacts, const Peer& peer) {
   return sound_contacts(std::move(contacts), peer.share().subdomain());
@@ -199,6 +212,8 @@ void expect_parts_played_again(std::uint64_t number, Bytes& sums) {
       record.step = window;
       const std::vector<std::uint8_t> bytes = written(record);
       sums.records += bytes.size();
+      const Peer& keeper = assembly.peers()[(peer.number() + 1) % peer_count];
+      ASSERT_EQ(written(heard(record, peer, keeper, validator, sums)), bytes) << where;
       ASSERT_TRUE(read(bytes, told)) << where;
       told.time = peer.now();
       ASSERT_EQ(fault_of(told, validator, start, told.time), "") << where;
@@ -221,10 +236,57 @@ void expect_parts_played_again(std::uint64_t begin, std::uint64_t end) {
   for (std::uint64_t number = begin; number < end && !testing::Test::HasFailure(); ++number)
     expect_parts_played_again(number, sums);
   std::cout << "bytes of claims " << sums.claims << ", of records " << sums.records
-            << ", of snapshots " << sums.snapshots << '\n';
+            << ", without what their keepers know " << sums.told << ", of snapshots "
+            << sums.snapshots << '\n';
+  EXPECT_LT(sums.told, sums.records);
 }
 
 TEST(StandbyCopy, PlaysThePartAgainBitForBit) { expect_parts_played_again(0, 40); }
+
+/// One impact, which takes longer where flights are slowed.
+TEST(PartLog, CountsTheWorkOfAReplayByEventsAndDrag) {
+  for (const double drag : {0.0, 0.1}) {
+    physics::WorldSpec spec = physics::test::rink_of(4.0, 2.0);
+    spec.puck_drag = drag;
+    physics::World world(spec);
+    world.add(physics::PuckSpec{.position = {0.5, 1.0}, .velocity = {1.0, 0.0}, .radius = 0.05});
+    world.add(physics::PuckSpec{.position = {0.9, 1.01}, .velocity = {-1.0, 0.0}, .radius = 0.05});
+    const Validator validator(world);
+    Assembly assembly(world, Division::into_strips(spec.field, 2), 0.25, 0.1);
+    assembly.advance();
+    Peer& peer = assembly.peers().front();
+    peer.part_log().begin(validator);
+    assembly.advance();
+    EXPECT_EQ(peer.part_log().record().work, drag > 0.0 ? 2u : 1u);
+  }
+}
+
+TEST(KnownBodies, ThatAreNotHereOrCameBeforeTheRunAreRefused) {
+  const SharedScene scene = shared_scene(0, 1.0);
+  const Validator validator(scene.world);
+  const std::uint32_t count = scene.world.body_count();
+  Share share(scene.world.spec(), count, 2);
+  PartRecord record;
+  record.committed.known = {count};
+  EXPECT_EQ(put_back_known(record, share, validator),
+            "says that body " + std::to_string(count) + " is here, which is not");
+  record.committed.known = {0};
+  EXPECT_EQ(put_back_known(record, share, validator), "says that body 0 is here, which is not");
+  record = {.repeated = {.known = {0}}};
+  EXPECT_EQ(put_back_known(record, share, validator), "sends a ghost of a run without its state");
+  share.put(0, physics::Subdomain::state_in(scene.world, 0));
+  share.add_ghost(0, 1), share.begin_window();
+  record = {.committed = {.known = {0, 0}}};
+  EXPECT_EQ(put_back_known(record, share, validator), "has body 0 twice");
+  record = {.committed = {.states = {1, 2, 3}, .known = {0}}};
+  EXPECT_EQ(put_back_known(record, share, validator), "sends what are no states of bodies");
+  record = {.committed = {.known = {0}}};
+  EXPECT_EQ(put_back_known(record, share, validator), "");
+  EXPECT_TRUE(record.committed.known.empty());
+  const auto bodies = unpacked(record.committed.states, validator);
+  ASSERT_TRUE(bodies && bodies->size() == 1);
+  EXPECT_TRUE(are_same(bodies->front().state, share.state(0)));
+}
 
 class StandbyCopyLong : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(StandbyCopyLong, PlaysThePartAgainBitForBit) {

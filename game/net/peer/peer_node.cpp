@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "game/peer/standby/known_bodies.h"
 #include "game/peer/standby/part_at_start.h"
 
 namespace rink::game {
@@ -25,7 +26,9 @@ PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
   play_.on_final = [this] { finish(); };
   play_.on_commit = [this] {
     interest_.note_places();
+    ++committed_;
     tell_standby();
+    if (!hear_standby()) throw peer::ProtocolError("a peer told its standby what cannot be");
     if (on_commit) on_commit();
     if (waiting_ > 0) --waiting_, play_next();
   };
@@ -54,19 +57,33 @@ void PeerNode::tell_standby() {
   if (feed_.is_due()) feed_.begin(final_, written(peer_->part_log().snapshot()));
   std::vector<peer::SnapshotPiece> pieces = feed_.take(false);
   record.piece_count = static_cast<std::uint32_t>(pieces.size());
+  leave_out_known(record, to, peer_->share(), validator_);
   count_and_send(to, Traffic::standby, written(std::move(record)));
   for (peer::SnapshotPiece& piece : pieces)
     count_and_send(to, Traffic::standby, written(std::move(piece)));
 }
 
-bool PeerNode::hear_standby(std::vector<std::uint8_t> content) {
-  if (peer::SnapshotPiece piece; read(content, piece))
-    return !kept_.is_empty() && kept_.add(std::move(piece), validator_).empty();
-  peer::PartRecord record;
-  if (!read(content, record)) return false;
-  record.time = end_of(record.step);
-  return fault_of(record, validator_, end_of(record.step - 1), record.time).empty() &&
-         kept_.add(std::move(record));
+/// A record waits until this peer is at its step, and the pieces that follow it wait with it.
+bool PeerNode::hear_standby() {
+  for (; !unheard_.empty(); unheard_.pop_front()) {
+    if (pieces_due_ > 0) {
+      peer::SnapshotPiece piece;
+      if (!read(unheard_.front(), piece) || !kept_.add(std::move(piece), validator_).empty())
+        return false;
+      --pieces_due_;
+      continue;
+    }
+    peer::PartRecord record;
+    if (!read(unheard_.front(), record) || record.step < committed_) return false;
+    if (record.step > committed_) return true;
+    record.time = end_of(record.step);
+    pieces_due_ = record.piece_count;
+    if (!put_back_known(record, peer_->share(), validator_).empty() ||
+        !fault_of(record, validator_, end_of(record.step - 1), record.time).empty() ||
+        !kept_.add(std::move(record)))
+      return false;
+  }
+  return true;
 }
 
 void PeerNode::due() {
@@ -89,9 +106,11 @@ void PeerNode::finish() {
 }
 
 bool PeerNode::receive(peer::PeerNumber from, Traffic about, std::vector<std::uint8_t> content) {
-  if (about == Traffic::standby)
-    return (from + 1) % division_.peer_count() == peer_->number() &&
-           hear_standby(std::move(content));
+  if (about == Traffic::standby) {
+    if ((from + 1) % division_.peer_count() != peer_->number()) return false;
+    unheard_.push_back(std::move(content));
+    return hear_standby();
+  }
   const bool is_of_windows =
       about == Traffic::halo || about == Traffic::claims || about == Traffic::agreement;
   if (!is_of_windows) return interest_.receive(from, about, std::as_bytes(std::span(content)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -51,7 +52,7 @@ class PeerNode {
  private:
   void count_and_send(peer::PeerNumber to, Traffic about, std::vector<std::uint8_t> content);
   void tell_standby();
-  bool hear_standby(std::vector<std::uint8_t> content);
+  bool hear_standby();
   void play_next();
   void finish();
   double end_of(std::uint64_t window) const { return static_cast<double>(window) / rate_hz_; }
@@ -65,7 +66,10 @@ class PeerNode {
   peer::Validator validator_;
   peer::StandbyFeed feed_{peer::StandbyLimits{}};
   peer::StandbyCopy kept_;  ///< of the part of the peer before this one
-  std::uint32_t begun_ = 0, final_ = 0,
+  std::deque<std::vector<std::uint8_t>>
+      unheard_;  ///< what that peer has sent of it since, which may be a window ahead
+  std::uint32_t pieces_due_ = 0;  ///< of a snapshot, before the next record
+  std::uint32_t begun_ = 0, final_ = 0, committed_ = 0,
                 waiting_ = 0;  ///< windows; the last: windows whose end has come and that are not
                                ///< played yet
   TrafficBytes sent_{}, messages_sent_{};

@@ -8,6 +8,7 @@
 
 #include "game/peer/session/others_states.h"
 #include "game/peer/session/part_change.h"
+#include "game/peer/standby/known_bodies.h"
 #include "game/peer/standby/packed_states.h"
 
 namespace rink::peer {
@@ -52,8 +53,12 @@ void Standby::pass(const Step& step, Peer& peer, PartRecord record) {
   const bool is_first =
       is_anew || (is_kept && (keeper != Replicas::keeper_of(own, now) || now.is_fresh(own)));
   note_own(step, peer.part_log(), record, is_first);
-  if (is_kept) tell(keeper, std::move(record), is_first);
-  else feed_.take(true);
+  if (is_kept) {
+    leave_out_known(record, keeper, peer.share(), inbox_.validator());
+    tell(keeper, std::move(record), is_first);
+  } else {
+    feed_.take(true);
+  }
   for (const PeerNumber from : next.members)
     if (from != own && now.has(from) && replicas_.keeps(from, next)) hear(from, step, peer);
   replicas_.drop_others(now, next);
@@ -89,6 +94,8 @@ void Standby::hear(PeerNumber from, const Step& step, const Peer& peer) {
   const Validator& scene = inbox_.validator();
   auto record = inbox_.received<PartRecord>(from, now);
   record.time = next.time;
+  if (const std::string fault = put_back_known(record, peer.share(), scene); !fault.empty())
+    inbox_.give_up(from, fault);
   if (const std::string fault = fault_of(record, scene, now.time, next.time); !fault.empty())
     inbox_.give_up(from, fault);
   const auto bodies = unpacked(record.committed.states, scene);

@@ -56,7 +56,8 @@ void PartLog::note_repeat() {
 
 void PartLog::note_window(std::uint64_t events) {
   if (scene_ == nullptr) return;
-  next_.events = events;
+  const std::uint64_t work_of_event = share_.world().spec().puck_drag > 0.0 ? 2 : 1;
+  next_.work = work_of_event * events + share_.subdomain().journal().motions.size();
   next_.own_keys = keys_.log();
   for (const Key& key : keys_.due())
     if (key.input == 0 || !share_.owns(key.bat)) next_.other_keys.push_back(key);

@@ -23,7 +23,7 @@ class PartLog {
   void begin(const Validator& scene);
   /// Before a window is repeated, when more ghosts are there.
   void note_repeat();
-  /// At a commit, before anything changes: the keys of the run, and how many events it had.
+  /// At a commit, before anything changes: the keys of the run, which had so many events.
   void note_window(std::uint64_t events);
   /// After the commit, and after pucks were put back: all since the last record. Its step and time
   /// are left out.

@@ -16,11 +16,15 @@ struct PartInput {
   std::vector<std::uint32_t> dropped{};  ///< bodies that are not there any more, by number
   std::vector<std::uint8_t> states{};    ///< bodies that are there from now on, or in another state
                                          ///< (packed_states.h)
+  std::vector<std::uint32_t> known{};    ///< others that are, which the keeper has itself in that
+                                         ///< state (known_bodies.h); by number
   bool sets_contacts = false;  ///< if not, contacts are as they were, without those of bodies that
                                ///< are gone
   std::vector<RestContact> rest_contacts{};  ///< all of them
 
-  bool is_empty() const { return dropped.empty() && states.empty() && !sets_contacts; }
+  bool is_empty() const {
+    return dropped.empty() && states.empty() && known.empty() && !sets_contacts;
+  }
 };
 
 /// All that a run of a part depends on beside its state before. A step's run may follow from more
@@ -36,8 +40,9 @@ struct PartRecord {
   std::uint32_t piece_count = 0;  ///< of a snapshot, that follow at once
 
   // What follows is not sent: the receiver knows the time.
-  double time = 0.0;         ///< of the step [s]
-  std::uint64_t events = 0;  ///< of the run
+  double time = 0.0;       ///< of the step [s]
+  std::uint64_t work = 0;  ///< of the run, in events of straight flights, which take 1 to 3 us:
+                           ///< with drag one counts twice, and each body on another curve once more
 };
 
 /// The whole of a part at a step: own bodies and ghosts.
@@ -63,12 +68,13 @@ struct SnapshotPiece {
 template <class Stream>
 bool exchange(Stream& stream, PartInput& input) {
   Head head({!input.dropped.empty(), !input.states.empty(), input.sets_contacts,
-             !input.rest_contacts.empty()});
+             !input.rest_contacts.empty(), !input.known.empty()});
   if (!head.exchange(stream)) return false;
   input.sets_contacts = head.has(2);
-  return exchange_part(stream, head.has(0), input.dropped) &&
+  return exchange_numbers(stream, head.has(0), input.dropped) &&
          exchange_part(stream, head.has(1), input.states) &&
-         exchange_part(stream, head.has(3), input.rest_contacts);
+         exchange_part(stream, head.has(3), input.rest_contacts) &&
+         exchange_numbers(stream, head.has(4), input.known);
 }
 
 template <class Stream>

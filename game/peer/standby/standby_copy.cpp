@@ -119,11 +119,11 @@ std::size_t StandbyCopy::snapshot_size() const {
   return size;
 }
 
-std::uint64_t StandbyCopy::replay_events() const {
-  std::uint64_t events = 0;
+std::uint64_t StandbyCopy::replay_work() const {
+  std::uint64_t work = 0;
   for (const PartRecord& record : records_)
-    if (record.step > newest().step) events += record.events;
-  return events;
+    if (record.step > newest().step) work += record.work;
+  return work;
 }
 
 void StandbyCopy::check() const {

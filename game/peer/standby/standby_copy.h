@@ -41,9 +41,9 @@ class StandbyCopy {
   std::vector<Key> log() const;
   /// Of these, those that did so in the last step.
   const std::vector<Key>& last_keys() const;
-  /// How many bytes of snapshots it holds, and how many events a replay has.
+  /// How many bytes of snapshots it holds, and how much work a replay is (PartRecord).
   std::size_t snapshot_size() const;
-  std::uint64_t replay_events() const;
+  std::uint64_t replay_work() const;
 
   /// Asserts that steps follow each other.
   void check() const;

@@ -12,7 +12,9 @@ namespace rink::peer::test {
 namespace {
 
 /// Peer 1 of three lies from its fifth window on. What the honest ones say when they lose it.
-std::string named_by_the_others(const std::function<bool(std::vector<std::uint8_t>&, bool&)>& lie) {
+/// `hear`, if not empty, is told what it receives.
+std::string named_by_the_others(const std::function<bool(std::vector<std::uint8_t>&, bool&)>& lie,
+                                std::function<void(std::span<const std::uint8_t>)> hear = {}) {
   Play play(0, 3, 30);
   play.is_live = true;
   std::atomic<bool> has_lied = false;
@@ -23,6 +25,10 @@ std::string named_by_the_others(const std::function<bool(std::vector<std::uint8_
     if (Loss loss; has_lied && read(bytes, loss)) bytes.clear();
     else if (lie(bytes, is_late)) has_lied = true;
   };
+  if (hear)
+    play.on_arrival = [&](End peer, std::vector<std::uint8_t>& bytes) {
+      if (peer == 1) hear(bytes);
+    };
   play.run();
   EXPECT_TRUE(has_lied);
   for (const End honest : {0, 2}) {
@@ -52,6 +58,7 @@ void add_others_bodies(PartRecord& record, const physics::World& start) {
   std::vector<Handover::Body> bodies = unpacked(record.committed.states, scene).value();
   for (const auto& [number, x] : {std::pair(0u, 0.1), {1u, 3.9}}) {
     std::erase_if(bodies, [number = number](const auto& body) { return body.number == number; });
+    std::erase(record.committed.known, number);
     bodies.push_back({number, physics::Subdomain::state_in(start, number)});
     physics::Flight& flight = bodies.back().state.flight;
     flight.x = x, flight.y = 1.0, flight.vx = flight.vy = 0.0;
@@ -75,22 +82,46 @@ TEST(FalseOwner, IsNamedByWhoKeepsItsReplica) {
   EXPECT_NE(named.find("as its own, which is in another's zone"), std::string::npos) << named;
 }
 
-/// What comes to a part comes from others, who know it: here bodies of the keeper's own, or ghosts.
+/// What comes to a part comes from others, who know it: here bodies of the keeper's own, or ghosts,
+/// of which the numbers would be enough.
 TEST(FalseOwner, OfABodyThatItsReplicasKeeperSeesIsNamed) {
   const SharedScene scene = shared_scene(0, 0.3);
   const Validator validator(scene.world);
-  const std::string named = named_by_the_others([&](auto& bytes, bool& is_late) {
+  Handover last;
+  const auto lie = [&](std::vector<std::uint8_t>& bytes, bool& is_late) {
     PartRecord record;
     if (!has_played(bytes, is_late) || is_of_a_window(bytes) || !read(bytes, record)) return false;
-    StatePacker packer(validator);
     std::vector<Handover::Body> bodies = unpacked(record.committed.states, validator).value();
-    for (auto& [number, state] : bodies) state.repeats += 3, packer.add(number, state);
-    const bool is_empty = record.committed.states.empty();
+    const auto altered = std::ranges::find_if(last.bodies, [&](const Handover::Body& body) {
+      return std::erase(record.committed.known, body.number) > 0;
+    });
+    if (altered == last.bodies.end()) return false;
+    bodies.push_back(*altered);
+    bodies.back().state.repeats += 3;
+    std::ranges::sort(bodies, {}, &Handover::Body::number);
+    StatePacker packer(validator);
+    for (const auto& [number, state] : bodies) packer.add(number, state);
     record.committed.states = packer.take();
     bytes = written(record);
-    return !is_empty;
+    return true;
+  };
+  const std::string named = named_by_the_others(lie, [&](std::span<const std::uint8_t> bytes) {
+    if (Handover handover; read(bytes, handover) && !handover.bodies.empty()) last = handover;
   });
   EXPECT_NE(named.find(" is as it is not"), std::string::npos) << named;
+}
+
+/// A body of which the number alone is said must be here.
+TEST(FalseOwner, OfABodyThatItsReplicasKeeperHasNotIsNamed) {
+  const std::string named = named_by_the_others([](auto& bytes, bool& is_late) {
+    PartRecord record;
+    if (!has_played(bytes, is_late) || is_of_a_window(bytes) || !read(bytes, record)) return false;
+    record.committed.known.push_back(4'000'000'000);
+    bytes = written(record);
+    return true;
+  });
+  EXPECT_NE(named.find("says that body 4000000000 is here, which is not"), std::string::npos)
+      << named;
 }
 
 /// Peer 1 tells both others another end than it has.
