@@ -74,7 +74,8 @@ struct Sample {
 };
 
 inline Sample sample_of(std::uint32_t nodes, double area, std::uint64_t windows,
-                        std::size_t tree_from = peer::SessionSettings{}.tree_from) {
+                        std::size_t tree_from = peer::SessionSettings{}.tree_from,
+                        bool keeps_fields = false) {
   constexpr std::uint64_t warm_up = 20;
   const Arena arena = arena_of(nodes, area, window * static_cast<double>(warm_up + windows));
   return {nodes, area,
@@ -84,6 +85,7 @@ inline Sample sample_of(std::uint32_t nodes, double area, std::uint64_t windows,
                                                 .warm_up = warm_up,
                                                 .windows = windows,
                                                 .tree_from = tree_from,
+                                                .keeps_fields = keeps_fields,
                                                 .keys = arena.keys})};
 }
 

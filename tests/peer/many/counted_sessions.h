@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "game/peer/session/session.h"
+#include "tests/peer/many/bytes_by_field.h"
 #include "tests/peer/thread_mail.h"
 
 namespace rink::peer::test {
@@ -24,6 +25,7 @@ struct NodeCost {
   double processor_s = 0.0;
   SessionCounters before, after;
   double halo = 0.0, own = 0.0;  ///< at last [m]; own bodies then
+  BytesByField fields;           ///< if they are kept
   std::uint64_t windows() const { return after.peer.windows - before.peer.windows; }
 };
 
@@ -39,7 +41,7 @@ class CountingMail final : public Mail {
     cost.messages_to.resize(count), cost.bytes_to.resize(count);
   }
   NodeCost cost;
-  bool counts = false, is_agreement = false;
+  bool counts = false, is_agreement = false, keeps_fields = false;
   double seconds = 0.0;  ///< spent in here
 
   void send(PeerNumber to, std::vector<std::uint8_t> bytes) override {
@@ -49,6 +51,7 @@ class CountingMail final : public Mail {
       ++cost.messages_to[to], cost.bytes_to[to] += bytes.size();
       cost.agreement_messages += is_agreement,
           cost.agreement_bytes += is_agreement ? bytes.size() : 0;
+      if (keeps_fields) cost.fields.count(bytes);
     }
     mail_.send(to, std::move(bytes));
     seconds += thread_seconds() - begin;
@@ -75,7 +78,8 @@ struct CountedSettings {
   std::uint64_t warm_up = 10, windows = 20;
   std::size_t tree_from = SessionSettings{}.tree_from;
   bool is_replicated = true;
-  std::vector<Key> keys{};  ///< by time
+  bool keeps_fields = false;  ///< of messages, which takes time
+  std::vector<Key> keys{};    ///< by time
 };
 
 /// All nodes play `whole`, which is at its start, until the counted windows are over.
@@ -89,6 +93,7 @@ inline CountedRun counted_run(const physics::World& whole, const CountedSettings
   run.nodes.resize(settings.node_count), run.ends.resize(settings.node_count);
   const auto live = [&](PeerNumber number) {
     CountingMail mail(office, number, settings.node_count);
+    mail.keeps_fields = settings.keeps_fields;
     SessionSettings own{.number = number,
                         .peer_count = settings.node_count,
                         .halo = settings.halo,
