@@ -64,6 +64,22 @@ TEST(ExactReader, ReadsWhatItIsSentAndNeverAWrongLength) {
   }
 }
 
+/// The first bit says that a conversation begins, and the next eight in which version.
+TEST(ExactReader, AnotherVersionIsRefused) {
+  std::vector<std::byte> first = conversation(0.1)[0];
+  ASSERT_EQ(static_cast<std::uint64_t>(std::to_integer<unsigned>(first[0]) >> 1 |
+                                       (std::to_integer<unsigned>(first[1]) & 1u) << 7),
+            exact::exact_version);
+  for (const unsigned bit : {1u, 2u, 5u}) {
+    std::vector<std::byte> other = first;
+    other[0] ^= static_cast<std::byte>(1u << bit);
+    ExactReplicas replicas;
+    EXPECT_EQ(replicas.receive(other), ExactReplicas::Result::resend);
+    EXPECT_FALSE(replicas.is_exact());
+    EXPECT_EQ(replicas.receive(first), ExactReplicas::Result::exact);
+  }
+}
+
 /// Every byte of the first message, and every one of a later one, is once another.
 TEST(ExactReader, AWrongByteIsRefusedOrFoundByTheHashAndARepeatMendsIt) {
   const auto messages = conversation(3.0);

@@ -17,9 +17,9 @@
 namespace rink::game {
 
 /// How many bodies were compared over all clients and ticks, and how many were not computed, being
-/// held by somebody unknown.
+/// held by somebody unknown, or lingered out of scope.
 struct Compared {
-  std::uint64_t bodies = 0, held_by_unknown = 0;
+  std::uint64_t bodies = 0, held_by_unknown = 0, lingering = 0;
 };
 
 inline bool are_same_bits(const Vector2& a, const Vector2& b) {
@@ -52,8 +52,10 @@ inline void compare(LockstepRink& rink, Client& client, const std::string& where
         << who;
     ASSERT_EQ(digest_of(body.number, truth), digest_of(body.number, found)) << who;
     const EntityReplica* const shown = client.replicas().find(body.object);
-    ASSERT_TRUE(shown != nullptr && shown->in_scope && shown->is_placed) << who;
-    if (game.world().is_in_play(id)) {
+    ASSERT_TRUE(shown != nullptr && shown->in_scope == body.is_in_scope) << who;
+    ASSERT_TRUE(shown->is_placed || !body.is_in_scope) << who;
+    if (!body.is_in_scope) ++compared.lingering;
+    else if (game.world().is_in_play(id)) {
       ASSERT_EQ(shown->position_at(game.now()), game.position(id)) << who;
     }
     ++compared.bodies;

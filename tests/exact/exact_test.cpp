@@ -33,7 +33,7 @@ TEST(Exact, WhoSeesAllIsSentKeysAndComputesTheRest) {
 }
 
 TEST(Exact, WhoSeesAPartComputesItThroughEntriesExitsAndHitsFromBeyond) {
-  std::uint64_t told = 0, entries = 0, exits = 0;
+  std::uint64_t told = 0, entries = 0, exits = 0, lingering = 0, returns = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Scene scene = with_seed(small_crowd(), seed);
     LockstepRink rink(scene, settings_for(scene, seed, 6.0, 0.2));
@@ -44,10 +44,13 @@ TEST(Exact, WhoSeesAPartComputesItThroughEntriesExitsAndHitsFromBeyond) {
     const ExactReplicaCounters sum = counted(rink);
     EXPECT_EQ(sum.wrong_hashes + sum.malformed, 0u) << "seed " << seed;
     told += sum.doubtful, entries += sum.entries, exits += sum.exits;
+    lingering += compared.lingering, returns += rink.exact_feed()->counters().returns;
   }
   EXPECT_GT(told, 50u);
   EXPECT_GT(entries, 500u);
   EXPECT_GT(exits, 300u);
+  EXPECT_GT(lingering, 1000u);
+  EXPECT_GT(returns, 50u);
   RecordProperty("told", std::to_string(told));
   RecordProperty("entries", std::to_string(entries));
 }

@@ -64,7 +64,8 @@ void ComputedReplicas::show(const ExactReplicas::Body& body, const rti::Stamp& s
 
 /// The own bat always, for the number of its keys.
 void ComputedReplicas::show_changed(const rti::Stamp& stamp) {
-  for (const std::uint32_t number : exact_.changed()) show(*exact_.find(number), stamp);
+  for (const std::uint32_t number : exact_.changed())
+    if (const ExactReplicas::Body& body = *exact_.find(number); body.is_in_scope) show(body, stamp);
   if (bat_)
     if (const ExactReplicas::Body* const own = exact_.find(bat_number_)) show(*own, stamp);
   replicas_.show_instant(stamp);

@@ -15,7 +15,9 @@ namespace {
 
 /// A conversation begins with one message, which a connection's queue must hold; no entry takes
 /// fewer bytes than the latter.
-constexpr std::size_t start_bytes_max = 512u << 10, entry_bytes = 16;
+constexpr std::size_t start_bytes_max = 512u << 10, entry_bytes = 12;
+/// Of one client: those that rest somewhere would otherwise linger for ever.
+constexpr std::size_t lingering_max = 256;
 
 /// The place of `body`, which must be there, in a list that rises.
 std::uint32_t rank_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
@@ -148,7 +150,7 @@ void ExactFeed::forget(Client& client) {
       std::ranges::find_if(clients_, [&](const auto& each) { return each && &*each == &client; }) -
       clients_.begin());
   for (const std::uint32_t body : client.known) know(index, body, false);
-  client.known.clear(), client.bats.clear();
+  client.known.clear(), client.bats.clear(), client.lingering.clear();
   client.slots.clear();
 }
 
@@ -198,13 +200,16 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
     message_.start = start_;
     ++counters_.starts;
   }
-  find_changes(client, *scope);
+  find_changes(index, *scope);
   if (message_.start && message_.entries.size() > start_bytes_max / entry_bytes)
     return leave_to_rti(client, execution);
   add_told(client);
+  end_lingering(client);
+  std::ranges::sort(message_.exits, {}, &ExactExit::rank);
   add_keys(client);
   classes_.clear();
-  if (!message_.told.empty() || !message_.exits.empty() || !message_.entries.empty())
+  if (!message_.told.empty() || !message_.exits.empty() || !message_.returns.empty() ||
+      !message_.entries.empty())
     for (const std::uint32_t body : client.known) classes_.push_back(facts_[body].exact_class);
   const ExactContext context{.time = client.time,
                              .tag = client.tag,
@@ -231,23 +236,33 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
   execution.send_host_message(client.federate, bytes_);
 }
 
-/// The client's scope against what it knows: who entered and who left, by number.
-void ExactFeed::find_changes(const Client& client, const rti::Bitmap& scope) {
-  entered_.clear(), left_.clear();
+/// The client's scope against what it knows: who entered, who left and who came back, by number.
+/// Who left lingers: it costs a byte when it does and one when something unknown hits it, less than
+/// another entry where it comes back before that, and the states of those that it hits meanwhile.
+void ExactFeed::find_changes(std::size_t index, const rti::Bitmap& scope) {
+  const Client& client = *clients_[index];
+  entered_.clear(), left_.clear(), returned_.clear();
   const std::size_t words = std::max(scope.word_count(), client.slots.word_count());
   for (std::size_t w = 0; w < words; ++w)
     for (std::uint64_t bits = scope.word(w) ^ client.slots.word(w); bits != 0; bits &= bits - 1) {
       const auto slot =
           static_cast<std::uint32_t>(64 * w + static_cast<std::size_t>(std::countr_zero(bits)));
       if (slot >= body_of_slot_.size() || body_of_slot_[slot] == nobody) continue;
-      (scope.contains(slot) ? entered_ : left_).push_back(body_of_slot_[slot]);
+      const std::uint32_t body = body_of_slot_[slot];
+      (!scope.contains(slot) ? left_ : knows(index, body) ? returned_ : entered_).push_back(body);
     }
   for (const std::uint32_t body : events_.removed())
     if (std::ranges::binary_search(client.known, body)) left_.push_back(body);
-  std::ranges::sort(entered_), std::ranges::sort(left_);
-  for (const std::uint32_t body : left_)
-    message_.exits.push_back(
-        {rank_of(client.known, body), facts_[body].slot == nobody, facts_[body].slot == nobody});
+  std::ranges::sort(entered_), std::ranges::sort(left_), std::ranges::sort(returned_);
+  for (const std::uint32_t body : left_) {
+    const bool is_removed = facts_[body].slot == nobody;
+    message_.exits.push_back({.rank = rank_of(client.known, body),
+                              .lingers = !is_removed && !facts_[body].is_post,
+                              .is_at_start = is_removed,
+                              .is_removed = is_removed});
+  }
+  for (const std::uint32_t body : returned_)
+    message_.returns.push_back(rank_of(client.known, body));
   for (const std::uint32_t body : entered_) {
     const BodyFacts& facts = facts_[body];
     message_.entries.push_back({.number = body,
@@ -257,20 +272,45 @@ void ExactFeed::find_changes(const Client& client, const rti::Bitmap& scope) {
                                 .state = facts.is_post ? ExactState() : state_of(body)});
   }
   counters_.entries += entered_.size(), counters_.exits += left_.size();
+  counters_.returns += returned_.size();
 }
 
-/// Of groups that the client knows in part: who stays is told, who goes was never there.
+ExactExit& ExactFeed::exit_of(std::uint32_t rank) {
+  const auto exit = std::ranges::find(message_.exits, rank, &ExactExit::rank);
+  return exit != message_.exits.end() ? *exit
+                                      : message_.exits.emplace_back(ExactExit{.rank = rank});
+}
+
+/// Of groups that the client knows in part: who stays is told, who goes or lingers was never there.
 void ExactFeed::add_told(const Client& client) {
   for (const std::size_t number : client.partly_known)
     for (const std::uint32_t body : events_.groups()[number].bodies) {
       if (!std::ranges::binary_search(client.known, body)) continue;
       const std::uint32_t rank = rank_of(client.known, body);
-      const auto exit = std::ranges::find(message_.exits, rank, &ExactExit::rank);
-      if (exit != message_.exits.end()) exit->is_at_start = true;
-      else message_.told.push_back({rank, state_of(body)});
+      const bool stays = !std::ranges::binary_search(left_, body) &&
+                         (std::ranges::find(client.lingering, body) == client.lingering.end() ||
+                          std::ranges::binary_search(returned_, body));
+      if (stays) {
+        message_.told.push_back({rank, state_of(body)});
+        continue;
+      }
+      ExactExit& exit = exit_of(rank);
+      exit.lingers = false, exit.is_at_start = true;
     }
   std::ranges::sort(message_.told, {}, &ExactTold::rank);
   counters_.told += message_.told.size();
+}
+
+/// Too many linger: those that have done so longest end.
+void ExactFeed::end_lingering(const Client& client) {
+  const auto coming =
+      static_cast<std::size_t>(std::ranges::count_if(message_.exits, &ExactExit::lingers));
+  std::size_t many = client.lingering.size() + coming;
+  for (const std::uint32_t body : client.lingering) {
+    if (many-- <= lingering_max) return;
+    if (std::ranges::binary_search(returned_, body)) continue;
+    exit_of(rank_of(client.known, body));
+  }
 }
 
 void ExactFeed::add_keys(const Client& client) {
@@ -286,12 +326,22 @@ void ExactFeed::apply_changes(std::size_t index) {
   const auto is_bat = [this](std::uint32_t body) {
     return start_.classes[facts_[body].exact_class].kind == physics::BodyKind::bat;
   };
+  left_.clear();
+  for (const ExactExit& exit : message_.exits) {
+    const std::uint32_t body = client.known[exit.rank];
+    if (facts_[body].slot != nobody) client.slots.erase(facts_[body].slot);
+    if (exit.lingers) client.lingering.push_back(body);
+    else left_.push_back(body);
+  }
   for (const std::uint32_t body : left_) {
     client.known.erase(std::ranges::lower_bound(client.known, body));
     if (is_bat(body)) client.bats.erase(std::ranges::lower_bound(client.bats, body));
-    if (facts_[body].slot == nobody) continue;  // the object is gone
-    client.slots.erase(facts_[body].slot);
-    know(index, body, false);
+    std::erase(client.lingering, body);
+    if (facts_[body].slot != nobody) know(index, body, false);  // or the object is gone
+  }
+  for (const std::uint32_t body : returned_) {
+    std::erase(client.lingering, body);
+    client.slots.insert(facts_[body].slot);
   }
   for (const std::uint32_t body : entered_) {
     client.known.insert(std::ranges::lower_bound(client.known, body), body);
@@ -331,8 +381,10 @@ void ExactFeed::check() const {
     const Client& client = *clients_[k];
     assert(std::ranges::is_sorted(client.known) && std::ranges::is_sorted(client.bats));
     for (const std::uint32_t body : client.known)
-      assert(knows(k, body) && client.slots.contains(facts_[body].slot));
-    std::size_t count = 0;
+      assert(knows(k, body) &&
+             client.slots.contains(facts_[body].slot) ==
+                 (std::ranges::find(client.lingering, body) == client.lingering.end()));
+    std::size_t count = client.lingering.size();
     client.slots.for_each([&](std::uint32_t) { ++count; });
     assert(count == client.known.size());
   }

@@ -20,7 +20,7 @@ namespace rink::game {
 /// Counts since the feed was made, over all clients.
 struct ExactCounters {
   std::uint64_t bytes = 0, ticks = 0;  ///< of messages; ticks told to one client each
-  std::uint64_t keys = 0, told = 0, entries = 0, exits = 0, hashes = 0;
+  std::uint64_t keys = 0, told = 0, entries = 0, exits = 0, returns = 0, hashes = 0;
   std::uint64_t starts = 0;  ///< conversations begun, or begun anew
 };
 
@@ -60,7 +60,8 @@ class ExactFeed {
     std::uint64_t tag = 0;
     std::uint32_t felt = 0;
     std::vector<std::uint32_t> known, bats;  ///< bodies, by number
-    rti::Bitmap slots;                       ///< of their objects
+    std::vector<std::uint32_t> lingering;    ///< known ones out of scope, as they left it
+    rti::Bitmap slots;                       ///< of the objects of those in scope
     std::vector<std::size_t> partly_known;   ///< groups of the tick
   };
   struct BodyFacts {
@@ -76,7 +77,9 @@ class ExactFeed {
   void compare_groups();
   void compose(std::size_t client, const Tick& tick, rti::FederationExecution& execution);
   void leave_to_rti(Client& client, rti::FederationExecution& execution);
-  void find_changes(const Client& client, const rti::Bitmap& scope);
+  void find_changes(std::size_t index, const rti::Bitmap& scope);
+  void end_lingering(const Client& client);
+  ExactExit& exit_of(std::uint32_t rank);
   void add_told(const Client& client);
   void add_keys(const Client& client);
   void apply_changes(std::size_t index);
@@ -96,10 +99,10 @@ class ExactFeed {
   std::vector<BodyFacts> facts_;             ///< by body
   std::vector<std::uint32_t> body_of_slot_;  ///< `nobody` for objects that are no bodies
   std::vector<std::optional<Client>> clients_;
-  std::size_t words_ = 1;                      ///< of a body's row in `knowing_`
-  std::vector<std::uint64_t> knowing_;         ///< by body: a bit for each client
-  ExactTick message_;                          ///< lent to the client at hand
-  std::vector<std::uint32_t> entered_, left_;  ///< bodies, of the client at hand
+  std::size_t words_ = 1;                                 ///< of a body's row in `knowing_`
+  std::vector<std::uint64_t> knowing_;                    ///< by body: a bit for each client
+  ExactTick message_;                                     ///< lent to the client at hand
+  std::vector<std::uint32_t> entered_, left_, returned_;  ///< bodies, of the client at hand
   std::vector<Drive> drives_;
   std::vector<std::uint32_t> classes_;
   std::vector<std::byte> bytes_;

@@ -88,7 +88,8 @@ bool ExactReplicas::read(rti::Bytes message, ExactTick& tick) {
 }
 
 void ExactReplicas::begin(const ExactStart& start) {
-  for (const Body& body : bodies_) left_.push_back({body.object});
+  for (const Body& body : bodies_)
+    if (body.is_in_scope) left_.push_back({body.object});
   bodies_.clear();
   ranks_ = {};
   outer_contacts_.clear(), outer_jams_.clear();
@@ -110,7 +111,7 @@ bool ExactReplicas::apply(const ExactTick& tick) {
   play(tick);
   leave(tick);
   if (!enter(tick) || !settle_groups()) return false;
-  if (tick.told.empty() && tick.exits.empty() && tick.entries.empty()) {
+  if (tick.told.empty() && tick.exits.empty() && tick.entries.empty()) {  // returns change no rank
     for (const ExactKey& key : tick.keys) ranks_.drives[key.bat] = key.after;
   } else {
     list_ranks();
@@ -203,14 +204,21 @@ void ExactReplicas::play(const ExactTick& tick) {
 
 void ExactReplicas::leave(const ExactTick& tick) {
   std::vector<std::uint32_t> gone;
-  for (const ExactExit& each : tick.exits) gone.push_back(bodies_[each.rank].number);
+  for (const ExactExit& each : tick.exits) {
+    Body& body = bodies_[each.rank];
+    if (!each.lingers) gone.push_back(body.number);
+    if (body.is_in_scope || each.is_removed) left_.push_back({body.object, each.is_removed});
+    body.is_in_scope = false;
+  }
+  for (const std::uint32_t rank : tick.returns) {
+    bodies_[rank].is_in_scope = true;
+    entered_.push_back(bodies_[rank].number);
+  }
   for (const std::uint32_t number : gone)
     if (class_of(*find(number)).kind != physics::BodyKind::post) cast_off(number);
   const auto is_gone = [&](std::uint32_t number) {
     return std::ranges::binary_search(gone, number);
   };
-  for (const ExactExit& each : tick.exits)
-    left_.push_back({bodies_[each.rank].object, each.is_removed});
   // Who is told has its contacts told anew.
   std::vector<std::uint32_t> told;
   for (const ExactTold& each : tick.told) told.push_back(bodies_[each.rank].number);
@@ -233,6 +241,7 @@ void ExactReplicas::leave(const ExactTick& tick) {
       outer_jams_.emplace_back(body.number, other);
   }
   std::erase_if(bodies_, [&](const Body& body) { return is_gone(body.number); });
+  std::erase_if(entered_, [this](std::uint32_t number) { return find(number) == nullptr; });
   if (gone.empty()) return;
   std::erase_if(outer_contacts_, [this](const RestContact& rest) {
     return find(rest.low) == nullptr && find(rest.high) == nullptr;
@@ -271,25 +280,6 @@ bool ExactReplicas::enter(const ExactTick& tick) {
       outer_jams_.emplace_back(entry.number, other);
   }
   return true;
-}
-
-/// States that an engine had leave room for each other, but for roundings. Rules of the received
-/// kind keep nonsense out of the engine.
-bool ExactReplicas::is_free_for(const Body& body) const {
-  if (physics::Subdomain::is_out_of_play(body.state) || start_->spec.allow_overlap) return true;
-  constexpr double rounding = 1e-6;  // m
-  const physics::Vector2 place = body.state.motion().at(part_->world().now()).position,
-                         extent = body.state.extent();
-  if (!place.allFinite()) return false;
-  // A puck may be between the posts of a goal, beyond the field.
-  if (class_of(body).kind == physics::BodyKind::puck) {
-    const double radius = body.state.flight.radius;
-    const physics::Field& field = start_->spec.field;
-    if (place.x() < radius || place.x() > field.length - radius) return true;
-    return part_->world().is_free(place, std::max(radius - rounding, rounding * rounding));
-  }
-  return part_->world().inside().is_free(
-      place, physics::Vector2((extent - physics::Vector2::Constant(rounding)).cwiseMax(1e-12)));
 }
 
 /// All who hold each other with `body`; false if one of them is unknown.
@@ -346,7 +336,7 @@ bool ExactReplicas::settle_groups() {
   for (const std::uint32_t number : settled) {
     Body& body = *known_at(number);
     if (body.is_computed) continue;
-    if (!is_free_for(body)) return false;
+    if (!has_room_for(body.state, *part_)) return false;
     body.is_computed = true;
     part_->put(number, body.state);
   }

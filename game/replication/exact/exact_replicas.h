@@ -35,6 +35,8 @@ class ExactReplicas {
   struct Body {
     std::uint32_t number = 0, exact_class = 0, player = 0;
     rti::ObjectHandle object;
+    bool is_in_scope = true;   ///< else it lingers: it left, and is computed on while that costs
+                               ///< nothing
     bool is_computed = false;  ///< else it is held by somebody unknown, and told at each change
     physics::BodyState state;  ///< while it is not computed, or is a post
     Drive drive;               ///< of bats
@@ -75,7 +77,7 @@ class ExactReplicas {
     bool is_removed = false;
   };
   std::span<const Left> left() const { return left_; }
-  /// Bodies known since the last message, and all that move otherwise than before it.
+  /// Bodies in scope since the last message, and all known ones that move otherwise than before it.
   std::span<const std::uint32_t> entered() const { return entered_; }
   std::span<const std::uint32_t> changed() const { return changed_; }
   /// Null if it is not known.
@@ -109,7 +111,6 @@ class ExactReplicas {
   void cast_off(std::uint32_t number);
   bool settle_groups();
   bool takes_part(const Body& body, std::vector<std::uint32_t>& group) const;
-  bool is_free_for(const Body& body) const;
   std::uint32_t hash() const;
   bool are_held_by_contacts(std::span<const std::uint32_t> settled) const;
   void list_ranks();

@@ -21,6 +21,23 @@ bool is_possible(const ExactState& state, const physics::WorldSpec& spec, double
          physics::Subdomain::is_possible(b, exact_number_max);
 }
 
+bool has_room_for(const physics::BodyState& body, const physics::Subdomain& part) {
+  const physics::WorldSpec& spec = part.world().spec();
+  if (physics::Subdomain::is_out_of_play(body) || spec.allow_overlap) return true;
+  constexpr double rounding = 1e-6;  // m
+  const physics::Vector2 place = body.motion().at(part.world().now()).position,
+                         extent = body.extent();
+  if (!place.allFinite()) return false;
+  // A puck may be between the posts of a goal, beyond the field.
+  if (body.kind == physics::BodyKind::puck) {
+    const double radius = body.flight.radius;
+    if (place.x() < radius || place.x() > spec.field.length - radius) return true;
+    return part.world().is_free(place, std::max(radius - rounding, rounding * rounding));
+  }
+  return part.world().inside().is_free(
+      place, physics::Vector2((extent - physics::Vector2::Constant(rounding)).cwiseMax(1e-12)));
+}
+
 std::uint64_t digest_of(std::uint32_t number, const physics::BodyState& body) {
   std::uint64_t digest = number;
   const auto mix = [&](std::uint64_t word) {

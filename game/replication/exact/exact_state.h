@@ -12,7 +12,7 @@
 #include "game/control/network_grid.h"
 #include "game/physics/body_state.h"
 #include "game/physics/rounding/motion_grid.h"
-#include "rti/wire/bit_stream.h"
+#include "game/replication/exact/exact_codes.h"
 
 namespace rink::game {
 
@@ -83,95 +83,9 @@ struct ExactInstant {
   double now = 0.0;  ///< s
 };
 
-/// Bodies are numbered below this.
-inline constexpr std::uint32_t exact_number_max = 1u << 24;
-
 namespace exact {
 
 inline constexpr double speed_max = 1000.0;  ///< of received states, beyond all scenes [m/s]
-inline constexpr std::uint64_t list_max = 1u << 20;
-
-template <class Stream>
-bool count(Stream& stream, std::uint64_t& value, std::uint64_t max, unsigned order) {
-  if constexpr (!Stream::is_reading) assert(value <= max);
-  return stream.golomb(value, order) && value <= max;
-}
-
-template <class Stream, class Number>
-bool small(Stream& stream, Number& value, std::uint64_t max, unsigned order) {
-  std::uint64_t wide = static_cast<std::uint64_t>(value);
-  if (!count(stream, wide, max, order)) return false;
-  if constexpr (Stream::is_reading) value = static_cast<Number>(wide);
-  return true;
-}
-
-/// The length of a list; a reader resizes it, to no more elements than there are bits left.
-template <class Stream, class List>
-bool size(Stream& stream, List& list) {
-  std::uint64_t length = list.size();
-  if (!count(stream, length, list_max, 0)) return false;
-  if constexpr (Stream::is_reading) {
-    if (length > stream.left()) return false;
-    list.resize(static_cast<std::size_t>(length));
-  }
-  return true;
-}
-
-inline std::uint64_t folded(std::int64_t value) {
-  return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
-}
-inline std::int64_t unfolded(std::uint64_t value) {
-  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
-}
-
-/// Every bit of a finite double whose exponent is near `exponent` (that of 2^exponent): 57 bits
-/// mostly.
-template <class Stream>
-bool near(Stream& stream, double& value, int exponent) {
-  constexpr std::uint64_t mantissa_mask = (std::uint64_t{1} << 52) - 1;
-  std::uint64_t word = std::bit_cast<std::uint64_t>(value);
-  bool is_negative = word >> 63 != 0;
-  std::uint64_t mantissa = word & mantissa_mask,
-                off = folded(1023 + exponent - static_cast<std::int64_t>(word >> 52 & 0x7ff));
-  if (!stream.flag(is_negative) || !stream.golomb(off, 2) || !stream.bits(mantissa, 52))
-    return false;
-  if constexpr (Stream::is_reading) {
-    if (off > 4096) return false;
-    const std::int64_t biased = 1023 + exponent - unfolded(off);
-    if (biased < 0 || biased > 2046) return false;
-    word = static_cast<std::uint64_t>(is_negative) << 63 |
-           static_cast<std::uint64_t>(biased) << 52 | mantissa;
-    value = std::bit_cast<double>(word);
-  }
-  return true;
-}
-
-/// Every bit of a double that begins as `like` does.
-template <class Stream>
-bool like(Stream& stream, double& value, double like) {
-  const std::uint64_t base = std::bit_cast<std::uint64_t>(like);
-  std::uint64_t differing = std::bit_cast<std::uint64_t>(value) ^ base;
-  auto width = static_cast<std::uint64_t>(std::bit_width(differing));
-  if (!stream.bits(width, 7) || width > 64) return false;
-  // The first differing bit is known to be one.
-  std::uint64_t rest = width == 0 ? 0 : differing & ~(std::uint64_t{1} << (width - 1));
-  if (width > 1 && !stream.bits(rest, static_cast<unsigned>(width) - 1)) return false;
-  if constexpr (Stream::is_reading) {
-    differing = width == 0 ? 0 : rest | std::uint64_t{1} << (width - 1);
-    value = std::bit_cast<double>(base ^ differing);
-  }
-  return true;
-}
-
-/// A double that may be infinite but is a number.
-template <class Stream>
-bool any(Stream& stream, double& value) {
-  return stream.full(value) && !std::isnan(value);
-}
-template <class Stream>
-bool any(Stream& stream, physics::Vector2& value) {
-  return any(stream, value.x()) && any(stream, value.y()) && value.allFinite();
-}
 
 template <class Stream>
 bool exchange(Stream& stream, Drive& drive) {
@@ -224,11 +138,10 @@ struct GridFlight {
   std::int64_t x = 0, y = 0, vx = 0, vy = 0;
 };
 
-/// Bits of a place along a side of `length` [m].
-inline unsigned place_bits(double length) {
-  const double steps = std::ceil(length / physics::MotionGrid::position_step);
-  return static_cast<unsigned>(
-      std::bit_width(static_cast<std::uint64_t>(steps) + 2 * GridFlight::margin));
+/// How many places there are along a side of `length` [m].
+inline std::uint64_t place_count(double length) {
+  return static_cast<std::uint64_t>(std::ceil(length / physics::MotionGrid::position_step)) +
+         2 * GridFlight::margin;
 }
 
 /// Nothing if it begins elsewhere.
@@ -244,8 +157,7 @@ inline std::optional<GridFlight> on_grid(const physics::Flight& f, const ExactIn
   if (!x || !y || !vx || !vy) return std::nullopt;
   const auto is_near = [](std::int64_t place, double length) {
     return place + GridFlight::margin >= 0 &&
-           std::bit_width(static_cast<std::uint64_t>(place + GridFlight::margin)) <=
-               place_bits(length);
+           static_cast<std::uint64_t>(place + GridFlight::margin) < place_count(length);
   };
   if (!is_near(*x, instant.spec.field.length) || !is_near(*y, instant.spec.field.width))
     return std::nullopt;
@@ -255,7 +167,7 @@ inline std::optional<GridFlight> on_grid(const physics::Flight& f, const ExactIn
 template <class Stream>
 bool place(Stream& stream, std::int64_t& value, double length) {
   std::uint64_t word = static_cast<std::uint64_t>(value + GridFlight::margin);
-  if (!stream.bits(word, place_bits(length))) return false;
+  if (!below(stream, word, place_count(length))) return false;
   value = static_cast<std::int64_t>(word) - GridFlight::margin;
   return true;
 }
@@ -360,6 +272,10 @@ bool exchange(Stream& stream, ExactState& state, const ExactClass& exact_class,
 
 /// Whether a received state could be one in `spec` at `now` [s], as far as it tells by itself.
 bool is_possible(const ExactState& state, const physics::WorldSpec& spec, double now);
+
+/// Whether states that an engine had leave room for `body` in `part`, but for roundings. Rules of
+/// the received kind keep nonsense out of the engine.
+bool has_room_for(const physics::BodyState& body, const physics::Subdomain& part);
 
 /// A number that two states share only if all is equal on which the future of bodies depends that
 /// are out of the reach of their impact histories.
