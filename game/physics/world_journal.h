@@ -13,7 +13,7 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
-/// Never changes the motion, but a world that is looked at is played in order, not by tiles.
+/// Never changes the motion. Where tiles play, it is that of the plain loop.
 class WorldJournal {
  public:
   WorldJournal() = default;

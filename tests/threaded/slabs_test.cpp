@@ -7,6 +7,7 @@
 
 #include "game/physics/world.h"
 #include "game/process/thread_team.h"
+#include "tests/physics/slab_journal.h"
 #include "tests/physics/slab_scene.h"
 
 namespace rink::physics::test {
@@ -59,6 +60,23 @@ TEST(ThreadedSlabs, HaveTheSameBitsForAnyNumberOfThreads) {
       if (HasFatalFailure()) return;
     }
   }
+}
+
+/// Each worker writes its part of it.
+TEST(ThreadedSlabs, WriteTheJournalOfThePlainLoop) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (const std::uint32_t threads : {1u, 2u}) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << threads << " threads");
+      const bool is_forced = seed % 2 == 0;
+      ThreadTeam team(threads);
+      SlabPlan plan = shared_tiles(5, is_forced ? 0 : 1, is_forced ? 6.0 : 1.0);
+      plan.workers = &team;
+      const MatchScene scene(seed);
+      const World whole = scene.world(QueuePolicy::calendar);
+      PartsBySlabs parts(whole, plan, seed);
+      EXPECT_GT(parts.play(scene.duration, 4).slabs.windows, 0u);
+      if (HasFatalFailure()) return;
+    }
 }
 
 TEST(ThreadedSlabs, MayHaveMoreThreadsThanBodies) {

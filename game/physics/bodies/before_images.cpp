@@ -26,11 +26,16 @@ void BeforeImages::begin() {
 
 void BeforeImages::keep(std::uint32_t body) {
   assert(body < marks_.size());
+  if (marks_[body].number <= number_) keep_state(body, state_of(body, bodies_, history_, jams_));
+}
+
+void BeforeImages::keep_state(std::uint32_t body, const BodyState& before) {
+  assert(body < marks_.size());
   if (marks_[body].number > number_) return;
-  keep_flight(body, bodies_[body]);
+  keep_flight(body, before.flight);
   marks_[body].number = number_ + 1;
   marks_[body].state = static_cast<std::uint32_t>(states_.size());
-  states_.push_back({body, state_of(body, bodies_, history_, jams_)});
+  states_.push_back({body, before});
 }
 
 BodyState BeforeImages::state(std::uint32_t body) const {

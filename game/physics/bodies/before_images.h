@@ -42,6 +42,8 @@ class BeforeImages final : public ChangeObserver {
     flights_.push_back({body, flight});
   }
 
+  void keep_state(std::uint32_t body, const BodyState& before) override;
+
   /// Whether the body has changed in this window; and by nothing but free impacts.
   bool has_changed(std::uint32_t body) const { return marks_[body].number >= number_; }
   bool has_flown_freely(std::uint32_t body) const { return marks_[body].number == number_; }

@@ -1,15 +1,12 @@
 // Writes what an event did to each of its bodies into the journal.
 #include "game/physics/bodies/change_entries.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
 namespace rink::physics::inline RINK_PRECISION {
 
-namespace {
-
-/// A digest of all but the flight, the same whichever way an impact took. The rhythm of impacts
-/// follows from their list, where `mixed_digest` stands for it.
 std::uint64_t conditions_of(const Bodies& bodies, std::uint32_t body) {
   const Body& b = bodies[body];
   std::uint64_t digest = b.mouth;
@@ -34,10 +31,46 @@ std::uint64_t conditions_of(const Bodies& bodies, std::uint32_t body) {
   return digest;
 }
 
+namespace {
+
+/// Those whom the event at hand found where they came only later; nobody was near enough to matter,
+/// or the window is found to be wrong.
+void forget_later(Journal& journal, const Bodies& bodies) {
+  const auto later = std::erase_if(journal.looked_at, [&](std::uint32_t body) {
+    return bodies[body].time > journal.time && !bodies[body].is(Body::touched);
+  });
+  if (later > 0 && std::ranges::any_of(journal.looked_at, [&](std::uint32_t body) {
+        return !bodies[body].is(Body::touched);
+      }))
+    journal.parts = Journal::Parts::unsure;
+}
+
+/// Whether the event was an impact of two free pucks without loss, and of nobody else. Which way it
+/// took depends on what else came at its instant, anywhere.
+bool is_free_impact(const Journal& journal, const Bodies& bodies) {
+  const auto is_free = [&](std::uint32_t body) {
+    const Body& b = bodies[body];
+    return b.kind == BodyKind::puck && (b.flags & ~Body::touched) == 0;
+  };
+  const auto is_touched = [&](std::uint32_t body) { return bodies[body].is(Body::touched); };
+  return bodies.touched().size() == 2 && journal.mixed_digest == 0 &&
+         std::ranges::all_of(bodies.touched(), is_free) &&
+         std::ranges::all_of(journal.looked_at, is_touched);
+}
+
 }  // namespace
 
-void enter_changes(Journal& journal, const Bodies& bodies) {
+void enter_changes(Journal& journal, const Bodies& bodies, bool may_be_quiet) {
   assert(journal.rooms_of.size() == bodies.count());
+  if (journal.parts != Journal::Parts::none) forget_later(journal, bodies);
+  if (may_be_quiet && is_free_impact(journal, bodies)) {
+    const std::uint32_t low = bodies.touched()[0], high = bodies.touched()[1];
+    journal.enter_impact({low, bodies[low], conditions_of(bodies, low)},
+                         {high, bodies[high], conditions_of(bodies, high)});
+    journal.looked_at.clear();
+    ++journal.event;
+    return;
+  }
   const auto enter = [&](std::uint32_t body) {
     journal.enter({body, bodies[body], conditions_of(bodies, body) ^ journal.mixed_digest});
     if ((bodies[body].flags & (Body::curved | Body::held | Body::frozen | Body::gone)) == 0) return;

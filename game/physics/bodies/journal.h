@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -60,6 +61,11 @@ struct Journal {
   std::uint64_t quiet_events = 0;      ///< in this window
   std::vector<std::uint32_t> entered;  ///< bodies that were in a room until something was entered
                                        ///< of them: from then on all is
+  /// Whether a window is being played in parts. Then bodies that have been played further than the
+  /// event at hand were elsewhere then, and what it found of them is not entered; `unsure` if such
+  /// an event looked at others, too.
+  enum class Parts : std::uint8_t { none, sure, unsure };
+  Parts parts = Parts::none;
   RestContactAge age;
   std::span<const std::uint32_t> numbers;  ///< by slot: of the body in the whole
   /// A bat is driven otherwise from then on.
@@ -95,11 +101,13 @@ struct Journal {
     const Real ahead = quiet_until - f.time;  // drag would only make the way shorter
     return room.holds(f.x, f.y) && room.holds(f.x + f.vx * ahead, f.y + f.vy * ahead);
   }
-  /// A free impact of two bodies, after it.
+  /// Whether a free impact of two bodies, after it, is counted only.
+  bool is_quiet(const Entry& low, const Entry& high) const {
+    return is_quiet(low.body, low.flight) && is_quiet(high.body, high.flight);
+  }
   void enter_impact(const Entry& low, const Entry& high) {
-    if (is_quiet(low.body, low.flight) && is_quiet(high.body, high.flight)) ++quiet_events;
+    if (is_quiet(low, high)) ++quiet_events;
     else enter(low), enter(high);
-    ++event;
   }
   /// The event that is about to be processed, of these slots or parts of the field.
   void begin_event(Real at, Partner lower, Partner higher) {
@@ -113,12 +121,39 @@ struct Journal {
     at_once_max = std::max(at_once_max, at_once);
     times.push_back(at), counted.push_back(event);
   }
+  std::uint64_t digest_of(std::uint32_t slot, std::uint32_t count) const {
+    return ((std::uint64_t{number_of(slot)} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
+  }
   void mix_digest(std::uint32_t slot, std::uint32_t count) {
-    mixed_digest += ((std::uint64_t{number_of(slot)} << 32 | count) + 1) * 0x9e3779b97f4a7c15ULL;
+    mixed_digest += digest_of(slot, count);
   }
   RestContactAge next_age() {
     ++age.rank;
     return age;
+  }
+
+  /// How far it had come between two events; but for rooms, which whoever goes back sets.
+  struct Mark {
+    std::size_t changes = 0, motions = 0, times = 0, unsolved = 0, thrusts = 0, entered = 0;
+    std::uint32_t event = 0;
+    Real time = 0.0, played = -1.0;
+    std::uint64_t at_once_max = 0, quiet_events = 0;
+    RestContactAge age{};
+  };
+  Mark mark() const {
+    return {changes.size(), motions.size(), times.size(), unsolved.size(),
+            thrusts.size(), entered.size(), event,        time,
+            played,         at_once_max,    quiet_events, age};
+  }
+  void go_back(const Mark& mark) {
+    changes.resize(mark.changes), motions.resize(mark.motions);
+    times.resize(mark.times), counted.resize(mark.times);
+    unsolved.resize(mark.unsolved), thrusts.resize(mark.thrusts), entered.resize(mark.entered);
+    looked_at.clear();
+    event = mark.event, mixed_digest = 0;
+    time = mark.time, played = mark.played;
+    at_once_max = mark.at_once_max, quiet_events = mark.quiet_events;
+    age = mark.age;
   }
 };
 

@@ -7,6 +7,7 @@
 
 namespace rink::physics::inline RINK_PRECISION {
 
+struct BodyState;
 struct Flight;
 struct Journal;
 
@@ -16,6 +17,8 @@ class ChangeObserver {
  public:
   virtual void keep(std::uint32_t body) = 0;
   virtual void keep_flight(std::uint32_t body, const Flight& flight) = 0;
+  /// After the body has changed otherwise than in a free impact: what it was.
+  virtual void keep_state(std::uint32_t body, const BodyState& before) = 0;
 
  protected:
   ~ChangeObserver() = default;

@@ -316,7 +316,8 @@ void Engine::count_event(Real time) {
 void Engine::settle() {
   if (ledger_.is_kept()) bodies_.close_books();
   if (bodies_.is_slowed()) rests_.push_again();
-  if (observers_.journal != nullptr) enter_changes(*observers_.journal, bodies_);
+  if (observers_.journal != nullptr)
+    enter_changes(*observers_.journal, bodies_, free_impact_.is_wanted());
   for (const std::uint32_t body : bodies_.touched())
     if (!bodies_[body].is(Body::gone | Body::pending)) prediction_.predict(body);
   bodies_.forget_touched();

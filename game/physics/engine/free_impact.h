@@ -80,6 +80,8 @@ class FreeImpact {
   /// a journal alone. Who is near is looked at where the next events are predicted, so what was
   /// done until then is taken back if there is one.
   bool collide(std::uint32_t body, Partner partner, Real time, bool is_crowded);
+  /// Whether the world has such impacts.
+  bool is_wanted() const { return is_wanted_; }
 
  private:
   bool may_be_free(const Body& a, const Body& b) const {

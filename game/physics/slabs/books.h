@@ -1,13 +1,12 @@
 // What the events of several tiles took from the energy, entered as one loop would have entered it.
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "game/physics/bodies/energy_ledger.h"
 #include "game/physics/events/event_order.h"
 #include "game/physics/real.h"
+#include "game/physics/slabs/event_merge.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -30,22 +29,16 @@ class Books {
     entries_.clear();
   }
   /// One worker's; those of one event stand in the order in which it took them.
-  void add(std::span<const BookEntry> entries) {
-    entries_.insert(entries_.end(), entries.begin(), entries.end());
-  }
+  void add(std::span<const BookEntry> entries) { entries_.add(entries); }
   /// Spends all that was added since begin_window(), in the order of their events.
   void enter();
   /// Back to begin_window().
   void undo() { ledger_ = before_; }
 
  private:
-  void sort_by_slots();
-  void sort_slot(std::uint32_t begin, std::uint32_t end);
-
   EnergyLedger& ledger_;
   EnergyLedger before_;
-  std::vector<BookEntry> entries_, sorted_;
-  std::vector<std::uint32_t> ends_;  // of the slots in `sorted_`
+  InOrder<BookEntry> entries_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

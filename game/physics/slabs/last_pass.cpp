@@ -60,11 +60,12 @@ void LastPass::process(std::uint32_t body, const EventOrder& order) {
   const Counters before = parts_.record.counters();
   changed_.clear();
   time_ = order.time;
-  parts_.observers.before = this;
+  parts_.observers = {this, shared_.observers.journal};
   parts_.ledger.postpone(&transfers_);
   engine_.process(body, order.time);
   parts_.ledger.postpone(nullptr);
-  parts_.observers.before = nullptr;
+  parts_.observers = {};
+  tile_.impact().journal().take(order);
   for (const EnergyTransfer& transfer : transfers_)
     tile_.impact().book().push_back({order, transfer});
   transfers_.clear();
@@ -97,6 +98,11 @@ void LastPass::keep(std::uint32_t body) {
 /// A free impact tells when it is over.
 void LastPass::keep_flight(std::uint32_t body, const Flight& flight) {
   replace(body, flight, parts_.bodies[body].version - 1);
+}
+
+void LastPass::keep_state(std::uint32_t body, const BodyState& before) {
+  images_.keep_state(body, before);
+  replace(body, before.flight, parts_.bodies[body].version - 1);
 }
 
 void LastPass::replace(std::uint32_t body, const Flight& flight, std::uint32_t version) {

@@ -38,6 +38,7 @@ class LastPass final : public ChangeObserver {
 
   void keep(std::uint32_t body) override;
   void keep_flight(std::uint32_t body, const Flight& flight) override;
+  void keep_state(std::uint32_t body, const BodyState& before) override;
 
  private:
   bool crosses(std::uint32_t body) const;

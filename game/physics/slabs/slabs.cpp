@@ -32,6 +32,7 @@ Slabs::Slabs(Engine& engine, const SlabPlan& plan)
       parts_(engine.parts()),
       plan_(plan),
       books_(parts_.ledger),
+      journal_(parts_),
       lists_(parts_.places.grid(), parts_.events, worker_count(plan)),
       shares_(worker_count(plan)) {
   assert(plan.tile_cells >= 4 && plan.block_radius >= 0 && plan.window > 0.0);
@@ -45,6 +46,7 @@ std::optional<Goal> Slabs::advance(Real until, EventBudget* budget) {
 }
 
 std::optional<Goal> Slabs::play(Real until) {
+  if (parts_.clock.now < until) journal_.begin_advance();
   const Real pause = (until - parts_.clock.now) / Real(looks_max);
   while (parts_.clock.now < until) {
     engine_.predict_pending();  // first: cells made anew may make bodies wide
@@ -88,7 +90,11 @@ bool Slabs::plays_by_tiles(Real end) {
   return has_played;
 }
 
-std::optional<Goal> Slabs::play_in_order(Real until) { return engine_.advance(until, budget_); }
+/// Of one advance(), however many of these and of windows it takes.
+std::optional<Goal> Slabs::play_in_order(Real until) {
+  if (parts_.clock.now < until) parts_.clock.is_played = false;
+  return engine_.advance(until, budget_);
+}
 
 /// Whether the budget, if there is one, has room for so many until `end`.
 bool Slabs::has_room(Real end, std::uint64_t events) const {
@@ -123,7 +129,8 @@ bool Slabs::is_worth_dividing(Real end) const {
 bool Slabs::play_window(Real end) {
   begin_window(end);
   play_passes();
-  const bool is_cut = last_pass_->goal() < infinity, is_usual = this->is_usual(),
+  const bool is_cut = last_pass_->goal() < infinity,
+             is_usual = this->is_usual() && journal_.are_usual(all_tiles_),
              was_right = !is_cut && is_usual && has_missed_nothing(),
              is_accepted = was_right && has_room(end, events_played());
   if (is_cut) goal_ = last_pass_->goal();
@@ -150,8 +157,7 @@ bool Slabs::was_worth_it() const {
 /// Whether pucks fly straight unless something presses them, and impacts may be simple.
 bool Slabs::may_divide() const {
   const WorldSpec& spec = parts_.spec;
-  return parts_.bodies.count() >= plan_.bodies_min && parts_.observers.before == nullptr &&
-         parts_.observers.journal == nullptr && spec.queue != QueuePolicy::heap &&
+  return parts_.bodies.count() >= plan_.bodies_min && spec.queue != QueuePolicy::heap &&
          counts_touching() && spec.puck_friction == 0.0 && !spec.surface_friction &&
          !spec.allow_overlap;
 }
@@ -178,6 +184,8 @@ void Slabs::begin_window(Real end) {
   shared_.block_radius = plan_.block_radius + (pace_.blocks_wider() ? 1 : 0);
   shared_.is_charged = budget_ != nullptr;
   before_ = engine_.mark();
+  journal_.begin_window();
+  shared_.observers = journal_.observers();
   books_.begin_window();
   events_before_ = parts_.record.events().size();
   const bool is_kept = parts_.record.is_kept();
@@ -202,6 +210,7 @@ void Slabs::play_passes() {
   list_awakened();  // or the queue would go on without them
   parts_.events.windows()->reopen(shared_.begin, shared_.end, put_off_);
   last_pass_->play();
+  journal_.end_passes();
   slab_counters().last_pass += last_pass_->played();
 }
 

@@ -60,6 +60,16 @@
 // Books. What an event takes from the energy waits in a list, and is added to the sums in the order
 // in which one loop would have, once the window is right.
 //
+// Journal. Who looks at the world (bodies/observers.h) is told nothing meanwhile. Each tile notes
+// what its impacts would enter, and the last pass takes it from the engine. A right window enters
+// all in order of times and ids, with the clock that one loop would have had, and what bodies were
+// before; an undone one leaves no trace. Only the room of a body, which its own events alone end,
+// is written at once. One more thing must be right: the plain loop also enters who touched the two
+// of an impact and stayed as they were. Whoever is near is asked where it is now, so a late impact
+// that somebody played further touched, or nearly, makes the window wrong, and what else it found
+// of such is left out. Whether an impact of free pucks may go unentered is asked of their flights
+// alone, for which way it takes depends on the whole queue. Pieces of one advance() count as one.
+//
 // Differences from the plain loop: counters of bookkeeping, and the most events at one instant,
 // which is counted by tile.
 #pragma once
@@ -87,6 +97,7 @@
 #include "game/physics/slabs/tile_lists.h"
 #include "game/physics/slabs/tile_shares.h"
 #include "game/physics/slabs/tiling.h"
+#include "game/physics/slabs/window_journal.h"
 #include "game/physics/workers.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -141,6 +152,7 @@ class Slabs {
   SlabPlan plan_;
   EventBudget* budget_ = nullptr;  // while time advances, if there is one
   Books books_;
+  WindowJournal journal_;
   SharedWindow shared_;
   std::vector<std::unique_ptr<Tile>> tiles_;  // one for each worker
   std::unique_ptr<LastPass> last_pass_;

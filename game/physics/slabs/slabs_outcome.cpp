@@ -19,6 +19,7 @@ void Slabs::accept() {
   add_counters();
   merge_events();
   enter_books();
+  journal_.accept(all_tiles_, shared_, last_pass_->images());
   parts_.clock.arrive(shared_.end);
 }
 
@@ -112,6 +113,7 @@ void Slabs::enter_books() {
 /// Back to where the window began.
 void Slabs::undo() {
   books_.undo();
+  journal_.undo();
   for (const BeforeImages::KeptState& kept : last_pass_->images().states()) {
     BodyState state = kept.state;
     state.flight = parts_.bodies[kept.body];

@@ -28,6 +28,7 @@ void Tile::begin_window() {
   record_.forget();
   put_off_.clear(), wide_put_off_.clear(), awakened_.clear();
   impact_.begin_window(shared_.is_charged);
+  impact_.journal().begin_window(shared_.observers);
   clock_ = latest_ = {};
   at_once_max_ = 0;
 }

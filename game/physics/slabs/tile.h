@@ -8,6 +8,7 @@
 #include "game/physics/bodies/bodies.h"
 #include "game/physics/bodies/clock.h"
 #include "game/physics/bodies/event_record.h"
+#include "game/physics/bodies/observers.h"
 #include "game/physics/engine/engine.h"
 #include "game/physics/engine/prediction.h"
 #include "game/physics/events/event_bins.h"
@@ -30,6 +31,7 @@ struct SharedWindow {
   Real begin = 0.0, end = 0.0;  ///< s, the end included
   int block_radius = 2;         ///< cells
   bool is_charged = false;      ///< a budget asks who had the events
+  Observers observers;          ///< are told of the window when it is over
 
   Real& played_at(int column, int row, int columns) {
     return played[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

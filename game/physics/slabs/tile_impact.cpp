@@ -20,7 +20,8 @@ TileImpact::TileImpact(const Engine::Parts& engine)
       restitution_(engine.spec.restitution),
       rest_speed_(rest_speed(engine.spec)),
       puck_drag_(engine.spec.puck_drag),
-      keeps_books_(engine.spec.accounts_energy) {}
+      keeps_books_(engine.spec.accounts_energy),
+      journal_(engine.bodies) {}
 
 void TileImpact::begin_window(bool is_charged) {
   is_charged_ = is_charged;
@@ -172,6 +173,7 @@ void TileImpact::settle(Real time) {
     count(low_, time);
     if (is_body(high_)) count(high_, time);
   }
+  if (journal_.is_kept()) enter_in_journal(time);
   if (!keeps_books_) return;
   if (puck_drag_ > 0.0) {
     enter_drag(low_, low_before_, order);
@@ -179,6 +181,26 @@ void TileImpact::settle(Real time) {
   }
   enter(low_, low_before_, order);
   if (is_body(high_)) enter(high_, high_before_, order);
+}
+
+/// As FreeImpact and ImpactHistory do. Asks the records that the impact has written, which are at
+/// hand.
+void TileImpact::enter_in_journal(Real time) {
+  const bool is_of_two = is_body(high_) && bodies_[high_].inverse_mass != 0.0,
+             is_of_pucks = is_of_two && bodies_[low_].kind == BodyKind::puck &&
+                           bodies_[high_].kind == BodyKind::puck;
+  TileJournal::Meeting meeting{
+      .order = {time, std::min<Partner>(low_, high_), std::max<Partner>(low_, high_)},
+      .body = low_,
+      .other = is_of_two ? high_ : partner::none,
+      .mixed_digest = 0,
+      .is_free = is_of_pucks && given_back_ == 1.0 && puck_drag_ == 0.0 && !keeps_books_};
+  if (given_back_ < 1.0) {
+    meeting.mixed_digest = journal_.digest_of(low_, history_.impact_counts()[low_].impacts);
+    if (is_of_two)
+      meeting.mixed_digest += journal_.digest_of(high_, history_.impact_counts()[high_].impacts);
+  }
+  journal_.note(meeting);
 }
 
 /// As Impact does where impacts lose energy.

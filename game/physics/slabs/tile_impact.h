@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "game/physics/bodies/bodies.h"
@@ -15,6 +16,7 @@
 #include "game/physics/flight/straight_flight.h"
 #include "game/physics/real.h"
 #include "game/physics/slabs/books.h"
+#include "game/physics/slabs/tile_journal.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -57,16 +59,19 @@ class TileImpact {
   std::vector<BookEntry>& book() { return book_; }
   /// The impacts since then, if a budget wants them; others add to these, too.
   std::vector<ChargedEvent>& charged() { return charged_; }
-  /// Takes from the history what was entered there since begin_window().
-  void undo();
-
- private:
   /// What the history said before an impact.
   struct Counted {
     std::uint32_t body;
     ImpactCounts before;
   };
+  /// Since then, in the order in which they came here.
+  std::span<const Counted> counted() const { return counted_; }
+  /// What whoever looks at the world is told of impacts that are settled.
+  TileJournal& journal() { return journal_; }
+  /// Takes from the history what was entered there since begin_window().
+  void undo();
 
+ private:
   bool is_off_walls(const Body& body) const;
   bool is_off_walls(const RealVector& position, const RealVector& extent) const;
   bool may_strike(std::uint32_t body, std::uint32_t other) const;
@@ -76,6 +81,7 @@ class TileImpact {
   void count(std::uint32_t body, Real time);
   void enter_drag(std::uint32_t body, const Flight& before, const EventOrder& order);
   void enter(std::uint32_t body, const Flight& before, const EventOrder& order);
+  void enter_in_journal(Real time);
 
   Bodies& bodies_;
   ImpactHistory& history_;
@@ -92,6 +98,7 @@ class TileImpact {
   std::vector<BookEntry> book_;
   std::vector<ChargedEvent> charged_;
   std::vector<Counted> counted_;
+  TileJournal journal_;
 };
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -99,10 +99,22 @@ bool WindowCheck::meets_unseen(const Courses::Late& late, std::uint32_t other, R
   for (std::uint32_t at = latest_of(other); at != Courses::none;) {
     const Courses::Replaced& r = course_at(at);
     if (!(r.end > late.from)) return false;
+    if (shared_.observers.journal != nullptr && touched_unseen(late, r)) return true;
     if (meets_by(late, {other, r.flight}, std::min(r.end, end))) return true;
     at = r.earlier;
   }
   return false;
+}
+
+/// Whether somebody who has been played further touched the body, or nearly, in the impact that
+/// began its late course: the two do not meet, but a journal is told of it.
+bool WindowCheck::touched_unseen(const Courses::Late& late, const Courses::Replaced& other) const {
+  const bool began_late = late.flight.time >= late.from;  // by an impact
+  if (!began_late || !(other.flight.time < late.from)) return false;
+  const RealVector there = motion_of({other.body, other.flight}).at(late.from).position,
+                   offset = RealVector(late.flight.x, late.flight.y) - there;
+  return shape_of(parts_.bodies, late.body, other.body).gap(offset).distance <=
+         Real(clear_of_touching);
 }
 
 /// Asked as prediction asks, so that a meeting that it knows comes at the same bits. Laws of motion
