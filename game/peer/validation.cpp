@@ -234,6 +234,9 @@ std::string Validator::fault_of(const Verdict& message) const {
       return named("claims a goal of puck", goal.puck, "which is none");
   for (const std::uint32_t body : message.wanted)
     if (!has_body(body)) return named("asks for body", body, "which does not exist");
+  if (std::ranges::adjacent_find(message.wanted, std::ranges::greater_equal()) !=
+      message.wanted.end())
+    return "asks for bodies in no order";
   return first_fault(message.presses);
 }
 

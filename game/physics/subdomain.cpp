@@ -203,7 +203,12 @@ bool Subdomain::is_frozen(const BodyState& state) { return (state.flags & Body::
 
 bool Subdomain::is_held_along(const BodyState& state, int axis) {
   assert(axis == 0 || axis == 1);
-  return (state.flags & (axis == 0 ? Body::held_x : Body::held_y)) != 0;
+  return (state.flags & Body::held_along(axis)) != 0;
+}
+
+void Subdomain::release(BodyState& state, int axis) {
+  assert(axis == 0 || axis == 1);
+  state.flags = static_cast<std::uint8_t>(state.flags & ~Body::held_along(axis));
 }
 
 void Subdomain::put(std::uint32_t body, const BodyState& state) {

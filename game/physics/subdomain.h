@@ -60,6 +60,8 @@ class Subdomain {
   static bool is_frozen(const BodyState& state);
   /// Whether it is in a rest contact along axis 0 or 1.
   static bool is_held_along(const BodyState& state, int axis);
+  /// In no rest contact along the axis any more.
+  static void release(BodyState& state, int axis);
   /// As it was when the window began.
   BodyState state_before(std::uint32_t body) const { return before_->state(slot(body)); }
   /// The body's path from then to its first change.

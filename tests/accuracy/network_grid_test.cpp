@@ -94,7 +94,7 @@ TEST(NetworkGrid, MomentumAwayFromWallsDriftsAsTheSumOfIndependentRoundings) {
   game.advance(3.0);
   EXPECT_EQ(game.world().counters().wall_impacts, 0u);
   EXPECT_GT(game.world().counters().disc_impacts, 500u);
-  // A body is rounded after each of its impacts at most, and once at the start.
+  // A body is rounded after each of its impacts at most.
   const double each = 1.0 + 2.0 * static_cast<double>(game.world().counters().disc_impacts) /
                                 static_cast<double>(game.world().body_count());
   expect_at_most("change of the momentum / its sigma along both axes",

@@ -261,6 +261,31 @@ TEST(PartLog, CountsTheWorkOfAReplayByEventsAndDrag) {
   }
 }
 
+/// A liar's: whoever takes the part over would be named for it by all to whom it hands the body.
+TEST(PartReplay, HoldsNoBodyWithoutARestContact) {
+  const SharedScene scene = shared_scene(3, 0.1);
+  const Validator validator(scene.world);
+  PartSnapshot snapshot;
+  StatePacker packer(validator);
+  for (std::uint32_t body = 0; body < scene.world.body_count(); ++body) {
+    BodyState state = physics::Subdomain::state_in(scene.world, body);
+    for (std::uint8_t flag = 128; state.kind == physics::BodyKind::puck && flag != 0; flag /= 2) {
+      BodyState flagged = state;
+      flagged.flags |= flag;
+      if (physics::Subdomain::is_held_along(flagged, 0)) state = flagged;
+    }
+    packer.add(body, state);
+  }
+  snapshot.states = packer.take();
+  ASSERT_EQ(fault_of(snapshot, validator, 0.0), "");
+  const PartReplay replay(scene.world.spec(), validator, snapshot, 0.0);
+  const Part part = replay.part(Cuts::whole(scene.world.spec().field).division(1), 0);
+  ASSERT_EQ(part.bodies.size(), scene.world.body_count());
+  Handover handed_on;
+  handed_on.bodies = part.bodies, handed_on.rest_contacts = part.rest_contacts;
+  EXPECT_EQ(validator.fault_of(handed_on, 0.0), "");
+}
+
 TEST(KnownBodies, ThatAreNotHereOrCameBeforeTheRunAreRefused) {
   const SharedScene scene = shared_scene(0, 1.0);
   const Validator validator(scene.world);

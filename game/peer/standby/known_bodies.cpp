@@ -30,8 +30,13 @@ void leave_out_known(PartRecord& record, PeerNumber keeper, const Share& share,
 std::string put_back_known(PartRecord& record, const Share& share, const Validator& scene) {
   if (!record.repeated.known.empty()) return "sends a ghost of a run without its state";
   if (record.committed.known.empty()) return {};
+  std::vector<std::uint32_t> known = std::exchange(record.committed.known, {});
+  // First, for a state is a hundred times as long as a number.
+  std::ranges::sort(known);
+  if (const auto twice = std::ranges::adjacent_find(known); twice != known.end())
+    return "has body " + std::to_string(*twice) + " twice";
   std::vector<Handover::Body> bodies;
-  for (const std::uint32_t body : std::exchange(record.committed.known, {})) {
+  for (const std::uint32_t body : known) {
     if (!scene.has_body(body) || share.roles().of(body) == Role::away)
       return "says that body " + std::to_string(body) + " is here, which is not";
     // That of the window's start, should it be played already.

@@ -83,7 +83,7 @@ bool exchange_if(Stream& stream, bool is_there, PartInput& input) {
   return exchange(stream, input);
 }
 
-/// The seventh part of the head is always there, as in no other message of a window.
+/// The seventh part of the head is always there.
 template <class Stream>
 bool exchange(Stream& stream, PartRecord& record) {
   Head head({!record.repeated.is_empty(), !record.committed.is_empty(),

@@ -43,6 +43,20 @@ std::string fault_of_input(const PartInput& input, const Validator& scene, doubl
   return fault_of_states(input.states, input.rest_contacts, scene, time);
 }
 
+/// A liar's copy may lack contacts of its own bodies: whoever handed these on would be named for
+/// it.
+void release_unheld(Part& part) {
+  for (auto& [body, state] : part.bodies)
+    for (const int axis : {0, 1}) {
+      const auto holds = [body = body, axis](const RestContact& rest) {
+        return rest.axis == axis && (rest.low == body || rest.high == body);
+      };
+      if (physics::Subdomain::is_held_along(state, axis) &&
+          std::ranges::none_of(part.rest_contacts, holds))
+        physics::Subdomain::release(state, axis);
+    }
+}
+
 }  // namespace
 
 std::string fault_of(const PartRecord& record, const Validator& scene, double start, double end) {
@@ -111,6 +125,7 @@ Part PartReplay::part(const Division& division, PeerNumber peer) const {
     if (is_own(body)) part.bodies.push_back({body, subdomain_.state(body)});
   for (const RestContact& rest : subdomain_.rest_contacts())
     if (is_own(rest.low) || is_own(rest.high)) part.rest_contacts.push_back(rest);
+  release_unheld(part);
   return part;
 }
 

@@ -226,10 +226,11 @@ void ExactFeed::compose(std::size_t index, const Tick& tick, rti::FederationExec
   }
   bytes_.clear();
   rti::BitWriter writer(bytes_);
-  [[maybe_unused]] const bool is_written = exact::exchange(writer, message_, context, drives_);
-  assert(is_written);
+  // A scene may have wider fields and heavier bodies than a client is told of.
+  const bool is_written = exact::exchange(writer, message_, context, drives_);
   writer.finish();
-  if (bytes_.size() > (message_.start ? start_bytes_max : rti::HostMessage::size_max))
+  if (!is_written ||
+      bytes_.size() > (message_.start ? start_bytes_max : rti::HostMessage::size_max))
     return leave_to_rti(client, execution);
   client.time = message_.time, client.tag = message_.tag;
   ++counters_.ticks, counters_.bytes += bytes_.size();

@@ -44,7 +44,8 @@ class BytesByField {
       count("record/", bytes,
             {{"repeated states", record.repeated.states.size()},
              {"states", record.committed.states.size()},
-             {"dropped", part(record.committed.dropped)},
+             {"dropped", numbers(record.repeated.dropped) + numbers(record.committed.dropped)},
+             {"known", numbers(record.committed.known)},
              {"contacts",
               part(record.repeated.rest_contacts) + part(record.committed.rest_contacts)}});
     else if (SnapshotPiece piece; read(bytes, piece)) count("snapshot/", bytes, {});
@@ -60,7 +61,7 @@ class BytesByField {
   }
   static std::uint64_t numbers(std::vector<std::uint32_t>& list) {
     ByteMeasurer measurer;
-    exchange_numbers(measurer, !list.empty(), list);
+    if (!list.empty()) exchange_numbers(measurer, true, list);
     return measurer.size();
   }
   void count(const std::string& message, std::span<const std::uint8_t> bytes,
