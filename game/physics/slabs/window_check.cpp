@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "game/physics/bodies/tolerances.h"
@@ -106,15 +107,19 @@ bool WindowCheck::meets_unseen(const Courses::Late& late, std::uint32_t other, R
   return false;
 }
 
-/// Whether somebody who has been played further touched the body, or nearly, in the impact that
-/// began its late course: the two do not meet, but a journal is told of it.
+/// Whether somebody who has been played further touched the body in the impact that began its late
+/// course, by four times the roundings that JointImpacts allows: the two do not meet, but a journal
+/// is told of it. Within 1e-6 m somebody was in every tenth window of a dense gas.
 bool WindowCheck::touched_unseen(const Courses::Late& late, const Courses::Replaced& other) const {
   const bool began_late = late.flight.time >= late.from;  // by an impact
   if (!began_late || !(other.flight.time < late.from)) return false;
   const RealVector there = motion_of({other.body, other.flight}).at(late.from).position,
                    offset = RealVector(late.flight.x, late.flight.y) - there;
-  return shape_of(parts_.bodies, late.body, other.body).gap(offset).distance <=
-         Real(clear_of_touching);
+  const Real speed = std::hypot(late.flight.vx, late.flight.vy) +
+                     std::hypot(other.flight.vx, other.flight.vy),
+             rounding = offset_tolerance(parts_.spec) +
+                        std::numeric_limits<Real>::epsilon() * late.from * speed;
+  return shape_of(parts_.bodies, late.body, other.body).gap(offset).distance <= 64.0 * rounding;
 }
 
 /// Asked as prediction asks, so that a meeting that it knows comes at the same bits. Laws of motion
