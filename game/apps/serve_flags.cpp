@@ -212,7 +212,7 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags
       .flag("!--unmirrored", options.is_replicated,
             "keep no replicas of other nodes' parts: a lost or interrupted node ends all; set by "
-            "the first node; matches and ranks of MPI have none")
+            "the first node; ranks of MPI have none")
       .excludes(join);
   flags.option("--node-listen", options.node_listen,
                "ADDRESS:PORT at which other nodes reach this one; port 0: any free one, printed");

@@ -103,8 +103,9 @@ std::unique_ptr<Meeting> meeting_of(const ServeOptions& options, RankCommand& co
   if (!is_node(options)) return nullptr;
   const auto terms = [&](std::uint32_t nodes) {
     const double tick_s = 1.0 / options.rate_hz;
-    if (!options.hosted.empty()) return terms_of_matches(nodes, tick_s, options.balance_windows);
-    Terms all = terms_of_nodes(nodes, options.duration_s, tick_s, options.balance_windows);
+    Terms all = options.hosted.empty()
+                    ? terms_of_nodes(nodes, options.duration_s, tick_s, options.balance_windows)
+                    : terms_of_matches(nodes, tick_s, options.balance_windows);
     all.is_replicated = options.is_replicated;
     return all;
   };
@@ -182,6 +183,19 @@ std::exception_ptr why_lost(Node& node, std::exception_ptr otherwise) {
   return otherwise;
 }
 
+/// The user has interrupted this server, which ends its node.
+ExitStatus interrupted(Node* node) {
+  if (node != nullptr) try {
+      node->finish();
+    } catch (const SessionError& error) {
+      if (error.status() != ExitStatus::may_have_split) return ExitStatus::interrupted;
+      warn(error.what());
+      return error.status();
+    } catch (const std::exception&) {  // it is over
+    }
+  return ExitStatus::interrupted;
+}
+
 ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (!options.status.empty()) return show_status(options);
   for (const std::string& file : options.plugins) load_plugin(file);
@@ -234,7 +248,7 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (!options.report.empty()) write_file(options.report, report.dump(2));
   if (trace) write_trace(options.trace, *trace);
   if (!options.record.empty() && options.hosted.empty()) write_key_log(options.record, log);
-  if (is_interrupted) return ExitStatus::interrupted;
+  if (is_interrupted) return interrupted(node.get());
   if (lost) std::rethrow_exception(lost);
   if (!process.server().error().empty()) {
     complain("the server's own federate left the federation: ", process.server().error());

@@ -29,6 +29,18 @@ std::optional<std::string> match_objection(const Scene& scene) {
   return std::nullopt;
 }
 
+MatchFlow::MatchFlow(const FlowTimes& times, const MatchState& state, std::array<bool, 2> are_here)
+    : times_(times), state_(state), is_here_(are_here) {
+  const MatchPhase phase = state.phase;
+  if (phase == MatchPhase::waiting && are_all_here()) is_here_[1] = false;
+  if (phase == MatchPhase::away && is_here_[0] == is_here_[1]) is_here_ = {true, false};
+  if (phase == MatchPhase::countdown || phase == MatchPhase::playing || phase == MatchPhase::paused)
+    is_here_ = {true, true};
+  for (std::size_t player = 0; player < is_here_.size(); ++player)
+    is_here_[player] = is_here_[player] || state.wants_rematch[player];
+  if constexpr (checks_whole_structures) check();
+}
+
 void MatchFlow::begin_match(double now_s) {
   assert(are_all_here());
   state_ = {.number = state_.number + 1, .winner = std::nullopt};

@@ -58,6 +58,9 @@ class MatchFlow {
   explicit MatchFlow(const FlowTimes& times = {}) : times_(times) {
     assert(times.countdown_s >= 0.0 && times.patience_s >= 0.0);
   }
+  /// Goes on where another flow was. So players are there as `state` demands, and where it leaves
+  /// that open as `are_here` says.
+  MatchFlow(const FlowTimes& times, const MatchState& state, std::array<bool, 2> are_here);
 
   /// Lets time pass: countdowns and waits end.
   void advance(double now_s);

@@ -15,27 +15,6 @@
 namespace rink::game {
 namespace {
 
-/// Free flights have the rest of their state in `game`.
-std::vector<Game::ShownBody> bodies_of(const peer::PartChange& change, const Game& game) {
-  std::vector<Game::ShownBody> bodies;
-  bodies.reserve(change.bodies.size() + change.free_flights.size());
-  for (const peer::Handover::Body& body : change.bodies)
-    bodies.push_back({{body.number}, body.state});
-  for (const peer::FreeFlightState& flight : change.free_flights) {
-    bodies.push_back({{flight.number}, physics::Subdomain::state_in(game.world(), flight.number)});
-    flight.write_to(bodies.back().state.flight);
-  }
-  return bodies;
-}
-
-Game::ShownScore shown_score(const peer::Scoring& scoring) {
-  Game::ShownScore shown{
-      .score = {scoring.left, scoring.right}, .is_over = scoring.is_over, .face_offs = {}};
-  for (const peer::FaceOff& due : scoring.face_offs)
-    shown.face_offs.push_back({due.time, {due.puck}, due.is_left ? Team::left : Team::right});
-  return shown;
-}
-
 PartTeller teller_of(const SessionNetwork& network, const Game& start) {
   const Terms& terms = network.terms();
   PartTeller teller(start.world().spec().field, start.world().body_count(), terms.peer_count,
@@ -90,7 +69,7 @@ void Node::meet() {
   game_.require_window(terms().window);
   gather(*network_);
   const std::string scheme = settings_.hosting ? matches_scheme : nodes_scheme;
-  const bool may_have_copies = !settings_.hosting && meeting_.survives_losses();
+  const bool may_have_copies = meeting_.survives_losses();
   if (terms().interest.scheme != scheme || terms().is_seated || number() >= terms().peer_count ||
       terms().is_replicated > may_have_copies)
     throw SessionError(ExitStatus::not_admitted,
@@ -98,13 +77,14 @@ void Node::meet() {
                            scheme + (may_have_copies ? "" : " without standby copies"));
   game_.players(terms(), network_->peer_infos());  // or a greeting could name another's bats
   players_.emplace(game_, first_player(), player_count());
-  if (terms().is_replicated) players_->keep_unfelt();
+  const bool may_go_back = terms().is_replicated && !settings_.hosting;
+  if (may_go_back) players_->keep_unfelt();
   if (settings_.hosting) match_.emplace(*settings_.hosting);
   SeatTable table(game_.bat_count(), settings_.hosting ? 0.0 : settings_.absence_s);
   for (peer::PeerNumber node = 0; node < terms().peer_count; ++node)
     table.assign(node, network_->peer_infos()[node].first_bat,
                  network_->peer_infos()[node].bat_count);
-  seats_.emplace(std::move(table), number(), terms().peer_count, terms().is_replicated);
+  seats_.emplace(std::move(table), number(), terms().peer_count, may_go_back);
   feed_.emplace(match_ ? 1 : terms().peer_count, end_of_window(terms(), 1));
   if (!match_) {
     receiver_.emplace(game_.start().world(), terms(), number(), *feed_);
@@ -115,6 +95,13 @@ void Node::meet() {
                     [this](peer::PeerNumber from, const std::vector<std::uint8_t>& bytes) {
                       return receive(from, bytes);
                     });
+  if (match_)
+    recovery_->host({.clock_s = [this] { return clock_s(); },
+                     .session = [this] { return session_; },
+                     .decide = [this](const SeatDecision& each) { return receive(each); },
+                     .receive = {},
+                     .notify = settings_.notify},
+                    *match_);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -165,7 +152,7 @@ void Node::play() {
   };
   options.participant = this;
   options.notify = settings_.notify;
-  if (terms().is_replicated) options.losses = &*recovery_;
+  if (terms().is_replicated && !match_) options.losses = &*recovery_;
   options.takes_latecomers = true;
   if (!match_)
     network_->before_wait = [this] {
@@ -199,7 +186,10 @@ void Node::before_window(peer::Session& session) {
   }
   agree_on_seats(session);
   pass_on_keys();
-  if (match_) return match_->rounds().exchange(*network_, game_, *seats_, session);
+  if (match_) {
+    match_->rounds().exchange(recovery_->matches()->members(), game_, *seats_, session);
+    return recovery_->matches()->finish_round();
+  }
   const std::optional<Cells> cells = subscription_.take();
   if (!cells) return;
   WantedCells wanted{
@@ -215,8 +205,9 @@ void Node::pass_on_wishes() {
     say(*network_, referee, NodeMessage::seat_wishes, bytes_of(std::move(wishes)));
   if (!match_) return;
   for (const MatchWish& wish : match_->take_wishes())
-    if (number() == 0) match_->apply(wish, clock_s());
-    else say(*network_, 0, NodeMessage::match_wish, bytes_of(wish));
+    if (const peer::PeerNumber referee = seats_->referee(); number() == referee)
+      match_->apply(wish, clock_s());
+    else say(*network_, referee, NodeMessage::match_wish, bytes_of(wish));
 }
 
 void Node::pass_on_keys() {
@@ -231,21 +222,24 @@ void Node::pass_on_keys() {
 void Node::decide_seats(std::uint64_t instant, double now_s) {
   if (number() != seats_->referee() || !recovery_->is_settled()) return;
   const ListOf<SeatDecision> decisions{seats_->decide(instant, now_s)};
-  if (!decisions.words.empty())
-    tell_others(*network_, NodeMessage::seat_decisions, bytes_of(decisions));
-  for (const SeatDecision& decision : decisions.words) receive(decision);
-  if (!match_) return;
+  if (!match_) {
+    if (!decisions.words.empty())
+      tell_others(*network_, NodeMessage::seat_decisions, bytes_of(decisions));
+    for (const SeatDecision& decision : decisions.words) receive(decision);
+    return;
+  }
+  recovery_->matches()->say(decisions.words);
   for (const std::uint32_t player : {0u, 1u})
     match_->take_part(player, seats_->is_taken(player), clock_s());
 }
 
-/// Decisions of node 0 hold after the window that is now played: then all have its claims, and with
-/// them the decisions, which it sends before.
+/// Decisions of the referee hold after the window that is now played: then all have its claims, and
+/// with them the decisions, which it sends before.
 void Node::agree_on_seats(peer::Session& session) {
   const std::uint64_t instant =
       NodeSeats::instant_of(match_ ? match_->begun() : 0, session.window());
   pass_on_wishes();
-  decide_seats(instant + 1, match_ ? clock_s() : session.peer().now());
+  if (!match_) decide_seats(instant + 1, session.peer().now());
   for (const SeatDecision& decision : seats_->due(instant, session.peer().now()))
     take_over(decision, session);
 }
@@ -301,6 +295,7 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
              });
     }
     case NodeMessage::seat_decisions: {
+      if (match_) return recovery_->matches()->hear_decisions(from, content);
       const auto decisions = message_from<ListOf<SeatDecision>>(content);
       return from == seats_->referee() && decisions &&
              std::ranges::all_of(decisions->words,
@@ -315,14 +310,12 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
     }
     case NodeMessage::match_wish: {
       const auto wish = message_from<MatchWish>(content);
-      if (!wish || !match_ || number() != 0) return false;
+      if (!wish || !match_ || number() != seats_->referee()) return false;
       match_->apply(*wish, clock_s());
       return true;
     }
-    case NodeMessage::match_news: {
-      const auto news = message_from<MatchNews>(content);
-      return from == 0 && news && match_ && match_->follow(*news);
-    }
+    case NodeMessage::match_news:
+      return match_ && recovery_->matches()->hear_news(from, content);
     case NodeMessage::stand_in:
       break;  // it was sorted out
   }
@@ -332,48 +325,10 @@ bool Node::receive(peer::PeerNumber from, const std::vector<std::uint8_t>& bytes
 /// Where a loss may undo it a player is seated once it holds, else before the answer reaches it:
 /// its keys wait until the owner of its bat has the decision, too.
 bool Node::receive(const SeatDecision& decision) {
-  if (!terms().is_replicated && decision.change == SeatChange::enter && decision.node == number() &&
-      decision.player < game_.bat_count())
+  if ((match_ || !terms().is_replicated) && decision.change == SeatChange::enter &&
+      decision.node == number() && decision.player < game_.bat_count())
     players_->seat(decision.player);
   return seats_->hear(decision);
-}
-
-std::optional<ShownWindow> Node::show_next(double until, Game& game) {
-  if (match_ && match_->has_shown_all()) return check(), std::nullopt;
-  const bool is_over = outcome_.has_ended;  // what all have told was added before
-  const auto stretch = feed_->take(until + rounding_s);
-  if (!stretch) {
-    check();
-    if (is_over && feed_->taken() < feed_->count(match_ ? 0 : number()) &&
-        feed_->end_of(feed_->taken() + 1) <= until)
-      throw SessionError(ExitStatus::failed,
-                         "another node has ended without telling what it played last");
-    return std::nullopt;
-  }
-  if (match_) match_->note_shown(feed_->taken());
-  std::vector<Game::ShownBody> bodies;
-  ShownWindow shown;
-  for (const peer::PartChange& change : stretch->changes) {
-    for (Game::ShownBody& body : bodies_of(change, game)) {
-      shown.told.push_back(body.id);
-      bodies.push_back(std::move(body));
-    }
-    for (const std::uint32_t body : change.gone) shown.left.push_back({body});
-    for (const peer::Key& key : change.log)
-      shown.keys.push_back(event_of(key.input, key.time, *game.entity({key.bat}).player));
-  }
-  game.show(stretch->changes.front().time, bodies, shown.keys, shown_score(stretch->score));
-  return shown;
-}
-
-bool Node::has_come(double until) const {
-  if (outcome_.has_ended || (match_ && match_->has_shown_all())) return true;
-  return feed_->has_come(std::min(until, terms().until) - rounding_s);
-}
-
-bool Node::has_shown_all() const {
-  if (match_) return match_->has_shown_all();
-  return outcome_.has_ended && !outcome_.failure && feed_->taken() == feed_->count(number());
 }
 
 const PlayedPart& Node::finish() {

@@ -1,4 +1,4 @@
-// Follows the flow of matches at node 0, and shows each match to its end before the next.
+// Follows the flow of matches at the referee, and shows each match to its end before the next.
 #include "game/node/node_match.h"
 
 #include <algorithm>
@@ -54,9 +54,9 @@ bool NodeMatch::follow(const MatchNews& news) {
 void NodeMatch::begin_session() {
   assert(begins());
   ++begun_, rounds_.begin_session();
-  last_window_ = news_.last_window;
+  last_window_ = news_.last_window, match_ = news_.match;
   const std::lock_guard lock(mutex_);
-  sessions_.push_back({.match = news_.match});
+  sessions_.push_back({.match = match_});
 }
 
 void NodeMatch::end_session(double until_s, std::uint64_t stretches) {
@@ -108,14 +108,27 @@ bool NodeMatch::is_given_up() const {
 }
 
 /// Its last window was played before a pause that came meanwhile, if one came.
-void NodeMatch::win(Team winner, double time) {
+void NodeMatch::follow_win() {
   const MatchState& state = flow_.state();
-  if (state.number != next_.match || state.phase == MatchPhase::waiting ||
-      state.phase == MatchPhase::over)
+  if (!won_ || won_->match != next_.match || state.number != next_.match ||
+      state.phase == MatchPhase::waiting || state.phase == MatchPhase::over)
     return;
-  const double real_s = state.clock_real_s + time - state.clock_simulated_s;
+  const double real_s = state.clock_real_s + won_->time - state.clock_simulated_s;
   if (state.phase == MatchPhase::paused) flow_.pause(false, state.clock_real_s);
-  flow_.win(winner, real_s);
+  flow_.win(won_->winner, real_s);
+}
+
+/// Nobody has been told less than what it follows, so nothing that was said is taken back.
+void NodeMatch::lead(std::array<bool, 2> are_seated, double now_s) {
+  flow_ = MatchFlow(times_, news_.state, are_seated);
+  next_ = news_;
+  told_s_ = now_s;
+  follow_win();
+}
+
+void NodeMatch::fall_behind(double now_s, double simulated_s) {
+  if (flow_.runs())
+    flow_.fall_behind(now_s, std::min(simulated_s, simulated_at(flow_.state(), now_s)));
 }
 
 }  // namespace rink::game

@@ -1,7 +1,8 @@
-// The matches of two players that nodes host together: node 0 keeps to the rules around them, all
-// follow what it says, and each match is a session of its own.
+// The matches of two players that nodes host together: the referee keeps to the rules around them,
+// all follow what it says, and each match is a session of its own.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <deque>
@@ -20,7 +21,7 @@ namespace rink::game {
 /// is the session's thread's.
 class NodeMatch final : public SharedMatch {
  public:
-  explicit NodeMatch(const FlowTimes& times) : flow_(times) {}
+  explicit NodeMatch(const FlowTimes& times) : times_(times), flow_(times) {}
 
   /// That of a match until all of its session was shown, whatever follows.
   MatchState state() override;
@@ -38,7 +39,7 @@ class NodeMatch final : public SharedMatch {
   std::vector<MatchWish> take_wishes();
   MatchRounds& rounds() { return rounds_; }
   const MatchNews& news() const { return news_; }
-  /// False for what node 0 never says.
+  /// False for what the referee never says.
   bool follow(const MatchNews& news);
 
   /// True if the next session is to begin.
@@ -50,7 +51,14 @@ class NodeMatch final : public SharedMatch {
   /// It came to `until_s` [s, simulated], in so many stretches.
   void end_session(double until_s, std::uint64_t stretches);
 
-  // At node 0.
+  /// A side has won the session's game at `time` [s, simulated]: the referee says so.
+  void note_won(Team winner, double time) { won_ = Won{match_, winner, time}; }
+
+  // At the referee, which is node 0 at first.
+  /// This node becomes it, and goes on from the news; whose seats are taken.
+  void lead(std::array<bool, 2> are_seated, double now_s);
+  /// A loss took time, in which nobody played: the match has come no further than that [s].
+  void fall_behind(double now_s, double simulated_s);
   void take_part(std::uint32_t player, bool is_here, double now_s);
   void apply(const MatchWish& wish, double now_s);
   /// Lets time pass. Answers what the others are to be told: news, and now and then the old, for a
@@ -63,8 +71,8 @@ class NodeMatch final : public SharedMatch {
   /// The session's match is over, or was given up, while the session goes on.
   bool is_given_up() const;
   void end_after(std::uint64_t window) { next_.last_window = window; }
-  /// A side has won the session's game at `time` [s, simulated].
-  void win(Team winner, double time);
+  /// Tells the flow who has won, if somebody has and it does not know.
+  void follow_win();
 
  private:
   void wish(const MatchWish& wish);
@@ -76,11 +84,20 @@ class NodeMatch final : public SharedMatch {
     std::uint64_t stretches = 0;  ///< of all sessions when it has ended
   };
 
+  struct Won {
+    std::uint32_t match = 0;
+    Team winner = Team::none;
+    double time = 0.0;
+  };
+
+  FlowTimes times_;
   MatchFlow flow_;
   MatchRounds rounds_;
-  MatchNews news_, next_;  ///< as told; and, at node 0, what is to be told, but for the state
+  std::optional<Won> won_;  ///< the last one
+  MatchNews news_, next_;   ///< as told; and, at the referee, what is to be told, but for the state
   double told_s_ = 0.0;
   std::uint64_t begun_ = 0, ended_stretches_ = 0;  ///< sessions; and stretches of those that ended
+  std::uint32_t match_ = 0;                        ///< of the session that began last
   std::uint64_t last_window_ = 0;                  ///< of the session that goes on; 0: not known
   mutable std::mutex mutex_;
   MatchState state_;              ///< guarded by `mutex_`, as are these:

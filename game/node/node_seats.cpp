@@ -10,6 +10,14 @@ bool gives(const SeatDecision& decision) {
   return decision.change == SeatChange::enter && decision.player != no_player;
 }
 
+std::vector<std::uint32_t> held_by(peer::PeerNumber node,
+                                   const std::map<std::uint32_t, peer::PeerNumber>& holders) {
+  std::vector<std::uint32_t> players;
+  for (const auto& [player, holder] : holders)
+    if (holder == node) players.push_back(player);
+  return players;
+}
+
 }  // namespace
 
 std::vector<SeatWish> NodeSeats::take_wishes() {
@@ -18,7 +26,7 @@ std::vector<SeatWish> NodeSeats::take_wishes() {
     const std::lock_guard lock(mutex_);
     taken = std::exchange(wishes_, {});
   }
-  if (may_go_back_) open_.insert(open_.end(), taken.begin(), taken.end());
+  open_.insert(open_.end(), taken.begin(), taken.end());
   return taken;
 }
 
@@ -52,8 +60,18 @@ bool NodeSeats::hear(const SeatDecision& decision) {
       (!decided_.empty() && decision.window < decided_.back().window))
     return false;
   decided_.push_back(decision);
-  if (!may_go_back_) answer(decision);
+  if (may_go_back_) return true;
+  if (own_ != referee_) table_.apply(decision, 0.0);  // matches lease no bats
+  answer(decision), close(decision);
   return true;
+}
+
+/// The own wish that it answers is not repeated.
+void NodeSeats::close(const SeatDecision& decision) {
+  if (decision.node != own_) return;
+  const auto answered =
+      std::ranges::find_if(open_, [&](const SeatWish& wish) { return decision.answers(wish); });
+  if (answered != open_.end()) open_.erase(answered);
 }
 
 void NodeSeats::answer(const SeatDecision& decision) {
@@ -64,11 +82,10 @@ void NodeSeats::answer(const SeatDecision& decision) {
        .player = decision.player == no_player ? std::nullopt : std::optional(decision.player)});
 }
 
-std::vector<std::uint32_t> NodeSeats::own() const {
-  std::vector<std::uint32_t> players;
-  for (const auto& [player, node] : holders_)
-    if (node == own_) players.push_back(player);
-  return players;
+std::vector<std::uint32_t> NodeSeats::own() const { return held_by(own_, holders_); }
+
+std::vector<std::uint32_t> NodeSeats::held_in_round(peer::PeerNumber node) const {
+  return held_by(node, held_in_round_);
 }
 
 /// Nodes are at most a window apart: all have come to the one before.
@@ -89,11 +106,7 @@ std::vector<SeatDecision> NodeSeats::due(std::uint64_t window, double now_s) {
 void NodeSeats::make_final(const SeatDecision& decision, double now_s) {
   final_.apply(decision, now_s);
   if (gives(decision)) final_holders_[decision.player] = decision.node;
-  answer(decision);
-  if (decision.node != own_) return;
-  const auto answered =
-      std::ranges::find_if(open_, [&](const SeatWish& wish) { return decision.answers(wish); });
-  if (answered != open_.end()) open_.erase(answered);
+  answer(decision), close(decision);
 }
 
 void NodeSeats::rewind(std::uint64_t window, double now_s) {
@@ -110,6 +123,19 @@ void NodeSeats::rewind(std::uint64_t window, double now_s) {
   const std::lock_guard lock(mutex_);
   wishes_.insert(wishes_.begin(), open_.begin(), open_.end());
   open_.clear();
+}
+
+void NodeSeats::follow(peer::PeerNumber referee) {
+  if (std::exchange(referee_, referee) == referee) return;
+  const std::lock_guard lock(mutex_);
+  wishes_.insert(wishes_.begin(), open_.begin(), open_.end());
+  open_.clear();
+}
+
+std::vector<SeatTable::Seated> NodeSeats::lose(peer::PeerNumber node) {
+  assert(!may_go_back_);
+  std::erase_if(heard_, [node](const auto& wish) { return wish.first == node; });
+  return table_.inherit(node, referee_);
 }
 
 std::vector<SeatTable::Seated> NodeSeats::lose(const std::vector<peer::PeerNumber>& lost,

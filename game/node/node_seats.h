@@ -73,9 +73,18 @@ class NodeSeats {
   const std::map<std::uint32_t, peer::PeerNumber>& holders() const { return holders_; }
   /// The bats that were given to players of this node.
   std::vector<std::uint32_t> own() const;
+  /// In matches: the words of a round have had their effect; and the bats that were given to
+  /// players of `node` before it.
+  void finish_round() { held_in_round_ = holders_; }
+  std::vector<std::uint32_t> held_in_round(peer::PeerNumber node) const;
 
   /// All go back to the end of `window`, of which all have the decisions: later ones are undone.
   void rewind(std::uint64_t window, double now_s);
+  /// In matches, equal at all: this node decides. Own wishes that nobody has answered go to it.
+  void follow(peer::PeerNumber referee);
+  /// In matches, then: `node` is lost. Its players are the referee's, which is to let them leave;
+  /// returns them, by bat.
+  std::vector<SeatTable::Seated> lose(peer::PeerNumber node);
   /// Then, equal at all: these nodes are lost. Their players are the new referee's, which is to
   /// release their keys before they leave; returns them, by bat.
   std::vector<SeatTable::Seated> lose(const std::vector<peer::PeerNumber>& lost,
@@ -89,6 +98,7 @@ class NodeSeats {
 
   void make_final(const SeatDecision& decision, double now_s);
   void answer(const SeatDecision& decision);
+  void close(const SeatDecision& decision);
 
   SeatTable table_;  ///< with all decisions, at the referee
   SeatTable final_;  ///< with those that cannot be undone
@@ -97,7 +107,7 @@ class NodeSeats {
   std::vector<std::pair<peer::PeerNumber, SeatWish>> heard_;
   std::deque<SeatDecision> due_, decided_;  ///< that hold, but may be undone; and that will hold
   std::uint64_t window_ = 0;                ///< of the last due()
-  std::map<std::uint32_t, peer::PeerNumber> holders_, final_holders_;
+  std::map<std::uint32_t, peer::PeerNumber> holders_, final_holders_, held_in_round_;
   std::deque<SeatWish> open_;  ///< own ones on which nothing final was decided
   std::mutex mutex_;
   std::vector<SeatWish> wishes_;  ///< guarded by `mutex_`, as are these:

@@ -1,4 +1,4 @@
-// Windows of a tick; matches are played without copies.
+// Windows of a tick.
 #include "game/node/node_terms.h"
 
 #include <algorithm>
@@ -24,7 +24,6 @@ Terms terms_of_matches(std::uint32_t node_count, double tick_s, std::uint32_t ba
   constexpr double match_s_max = 1e6;  // none is so long
   const double window = std::max(1.0, std::round(tick_s / tick_grid)) * tick_grid;
   Terms terms = terms_of_nodes(node_count, match_s_max, window, balance_windows);
-  terms.is_replicated = false;
   terms.interest.scheme = matches_scheme;
   return terms;
 }
@@ -32,7 +31,7 @@ Terms terms_of_matches(std::uint32_t node_count, double tick_s, std::uint32_t ba
 Fingerprint fingerprint_of_nodes(const SharedGame& game) {
   Fingerprint fingerprint = game.session_fingerprint();
   StateHash keys;
-  keys.add(fingerprint.keys), keys.add(std::uint64_t{0x6e6f64657333});
+  keys.add(fingerprint.keys), keys.add(std::uint64_t{0x6e6f64657334});
   fingerprint.keys = keys.value();
   return fingerprint;
 }

@@ -15,8 +15,8 @@ inline constexpr const char *nodes_scheme = "nodes", *matches_scheme = "matches"
 /// each [s]; their zones may shift every `balance_windows`, or never if that is 0.
 Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
                      std::uint32_t balance_windows = balance_windows_default);
-/// Of nodes that host matches. A window is the tick rounded to the grid of matches, so that stamps
-/// are short.
+/// Of nodes that host matches, which go on when one of them is lost. A window is the tick rounded
+/// to the grid of matches, so that stamps are short.
 Terms terms_of_matches(std::uint32_t node_count, double tick_s,
                        std::uint32_t balance_windows = balance_windows_default);
 

@@ -132,19 +132,24 @@ enum class Lie { none, key_of_another, key_of_nobody, untold_key };
 class PlayingNode final : public WindowParticipant {
  public:
   PlayingNode(peer::test::PostOffice& office, peer::PeerNumber number, const Scene& scene)
-      : game_(scene, {}), mail_(office, number), seats_(table(), number, 2), random_(number + 1) {
+      : game_(scene, {}),
+        mail_(office, number),
+        seats_(table(), number, 2),
+        members_(mail_, game_.start().world(), number, 2, false),
+        random_(number + 1) {
     for (std::uint32_t player = 0; player < 2; ++player)
       seats_.hear({.window = 1, .node = player, .player = player, .token = player + 1u});
   }
 
   void play(std::uint64_t windows) {
     Terms terms = terms_of_matches(1, 1.0 / 60.0, 0);
+    terms.is_replicated = false;
     PartOptions options;
     options.participant = this;
     options.takes_latecomers = true;
     options.is_stopped = [windows](std::uint64_t window) { return window >= windows; };
     part = game_.play(terms, std::array{PeerInfo{}}, 0, mail_, options);
-    rounds_.confirm(mail_, seats_, part.hash);
+    rounds_.confirm(members_, part.hash);
   }
   std::uint64_t replayed() const {
     Game game(game_.scene());
@@ -179,7 +184,8 @@ class PlayingNode final : public WindowParticipant {
                      .time = last_});
     }
     if (lie != Lie::none && session.window() == 60) tell_a_lie(session);
-    rounds_.exchange(mail_, game_, seats_, session);
+    rounds_.exchange(members_, game_, seats_, session);
+    members_.finish_round();
   }
   void tell_a_lie(peer::Session& session) {
     const std::uint32_t bat = game_.start().bat(seats_.number())->index;
@@ -196,6 +202,7 @@ class PlayingNode final : public WindowParticipant {
   SharedGame game_;
   CountedMail mail_;
   NodeSeats seats_;
+  MatchMembers members_;
   MatchRounds rounds_;
   std::mt19937 random_;
   double last_ = 0.0;

@@ -24,7 +24,8 @@ namespace rink::game {
 struct Mortality {
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t last_word = never;
-  bool is_frozen = false;  ///< instead it says nothing until `thaw`
+  bool is_frozen = false;            ///< instead it says nothing until `thaw`
+  std::atomic<bool> is_due = false;  ///< or as soon as it looks at its network
   std::atomic<bool> is_dead = false, is_thawed = false;
   std::atomic<std::uint64_t> words = 0;  ///< that it has sent
 };
@@ -44,6 +45,10 @@ class MortalNetwork final : public SessionNetwork {
   void rest_until(double time_s) override {
     listen();
     network_->rest_until(time_s);
+  }
+  std::optional<std::vector<std::uint8_t>> next_mail(peer::PeerNumber from) override {
+    listen();
+    return network_->next_mail(from);
   }
   void defer(peer::PeerNumber from, std::vector<std::uint8_t> bytes) override {
     network_->defer(from, std::move(bytes));
@@ -76,14 +81,20 @@ class MortalNetwork final : public SessionNetwork {
 
  private:
   void live() {
-    if (mortality_.words++ < mortality_.last_word) return;
+    if (mortality_.words++ >= mortality_.last_word) die();
+  }
+  void die() {
     mortality_.is_dead = !mortality_.is_frozen;
     if (mortality_.is_dead) throw std::runtime_error("dead");
     while (!mortality_.is_thawed) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   void listen() {
+    if (mortality_.is_due) die();
     network_->receive_aside = receive_aside;
-    network_->before_wait = before_wait;
+    network_->before_wait = [this] {
+      if (mortality_.is_due) die();
+      return before_wait ? before_wait() : std::numeric_limits<double>::infinity();
+    };
   }
 
   std::unique_ptr<SessionNetwork> network_;

@@ -63,7 +63,7 @@ TEST(NodeMatch, ShowsAMatchToItsEndBeforeTheNext) {
   nodes.begin_session();
   nodes.advance(1.0);
   nodes.first.end_session(0.5, 30), nodes.other.end_session(0.5, 30);
-  nodes.first.win(Team::left, 0.5);
+  nodes.first.note_won(Team::left, 0.5), nodes.first.follow_win();
   nodes.advance(1.6);
   nodes.other.note_shown(29);
   EXPECT_EQ(nodes.other.state().winner, Team::left);

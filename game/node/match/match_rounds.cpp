@@ -5,7 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "game/control/bat_controller.h"
 #include "game/model/time_grid.h"
+#include "game/net/peer/crowd.h"
 #include "game/physics/snapshot_stream.h"
 #include "game/physics/subdomain.h"
 #include "im/basics/fnv_hash.h"
@@ -108,49 +110,88 @@ std::vector<RoundKey> MatchRounds::take_keys(const SharedGame& game, const NodeS
   return keys;
 }
 
-std::vector<Round> MatchRounds::said_by_all(peer::Mail& mail, const NodeSeats& seats, Round own,
-                                            std::uint64_t state) {
-  const std::vector<std::uint8_t> bytes = written(own, state);
-  for (peer::PeerNumber to = 0; to < seats.node_count(); ++to)
-    if (to != seats.number()) mail.send(to, bytes);
-  std::vector<Round> rounds(seats.node_count(), Round{.window = window_});
-  for (peer::PeerNumber from = 0; from < seats.node_count(); ++from) {
-    if (from == seats.number()) continue;
-    const std::string fault = fault_of(mail.receive(from), state, rounds[from]);
-    if (!fault.empty()) throw peer::ProtocolError("peer " + std::to_string(from) + " " + fault);
+/// Whose state differs from most others' is wrong. Of two none can know which is.
+std::vector<Round> MatchRounds::said_by_all(MatchMembers& members, Round own,
+                                            std::uint64_t state) const {
+  const std::vector<std::vector<std::uint8_t>> said = members.exchange(written(own, state));
+  std::vector<Round> rounds(said.size(), Round{.window = window_});
+  std::vector<std::pair<peer::PeerNumber, std::string>> faults;
+  std::size_t count = 0;
+  for (peer::PeerNumber from = 0; from < said.size(); ++from) {
+    if (said[from].empty()) continue;
+    ++count;
+    if (from == members.number()) continue;
+    const std::string fault = fault_of(said[from], state, rounds[from]);
+    if (!fault.empty()) faults.emplace_back(from, fault), rounds[from].keys.clear();
   }
-  rounds[seats.number()] = std::move(own);
+  rounds[members.number()] = std::move(own);
+  if (faults.empty()) return rounds;
+  if (members.is_surviving() && count > 2 && 2 * faults.size() >= count)
+    throw peer::Halt("most others have another state than this node before window " +
+                     std::to_string(window_ + 1) + " of the match: it halts, they may go on");
+  for (const auto& [from, fault] : faults) {
+    if (count <= 2) throw peer::ProtocolError("peer " + std::to_string(from) + " " + fault);
+    if (!members.is_lost(from)) members.give_up(from, fault);
+  }
   return rounds;
 }
 
-void MatchRounds::exchange(peer::Mail& mail, const SharedGame& game, const NodeSeats& seats,
-                           peer::Session& session) try {
-  assert(session.window() == window_);
-  peer::Peer& whole = session.peer();
-  const double start = whole.now();
-  const Round own{.window = window_, .keys = take_keys(game, seats, start)};
-  const std::vector<Round> rounds = said_by_all(mail, seats, own, state_of(session));
-  for (peer::PeerNumber from = 0; from < rounds.size(); ++from)
-    for (const RoundKey& key : rounds[from].keys) {
-      if (!holds(seats, from, key.player))
-        throw peer::ProtocolError("peer " + std::to_string(from) + " presses a key of player " +
-                                  std::to_string(key.player) + ", who does not play there");
-      const double thrust = game.scene().bodies.bats[key.player].thrust;
-      const peer::Press press{.bat = game.start().bat(key.player)->index,
-                              .thrust = thrust_of(key, thrust),
-                              .input = static_cast<std::uint8_t>(key.code % 8 + 1),
-                              .time = start + key.steps * key_grid};
-      whole.receive(whole.number(), {&press, 1});
-    }
-  ++window_;
-} catch (const peer::PeerGone& gone) {
-  throw peer::Halt(gone.what());
+void MatchRounds::feel(peer::Press press, std::uint32_t player, peer::Session& session) {
+  const InputEvent event = event_of(press.input, press.time, player);
+  Felt& felt = felt_[player];
+  press.time = std::max(press.time, felt.released_s);
+  felt.held.set(event.key, event.kind == InputKind::key_down);
+  felt.last = std::max(felt.last, press.time);
+  session.peer().receive(session.peer().number(), {&press, 1});
 }
 
-void MatchRounds::confirm(peer::Mail& mail, const NodeSeats& seats, std::uint64_t state) try {
-  said_by_all(mail, seats, {.window = window_}, state);
-} catch (const peer::PeerGone& gone) {
-  throw peer::Halt(gone.what());
+/// A node that is a round behind knows of it a window earlier. What is felt just where a window
+/// ends might be in its state there and not in that of others. Whoever gets the bat next presses no
+/// key before it.
+void MatchRounds::release(const SharedGame& game, std::uint32_t player, double from_s,
+                          peer::Session& session) {
+  const Felt felt = felt_[player];
+  BatController controller(game.scene().bodies.bats[player].thrust, felt.held, 0);
+  for (const Key key : all_keys) {
+    if (!felt.held.is_down(key)) continue;
+    controller.press(key, false);
+    feel({.bat = game.start().bat(player)->index,
+          .thrust = controller.thrust(),
+          .input = input_of({.kind = InputKind::key_up, .key = key}),
+          .time = std::max(felt.last, from_s + key_grid)},
+         player, session);
+  }
+  felt_[player].released_s = felt_[player].last;
+}
+
+void MatchRounds::exchange(MatchMembers& members, const SharedGame& game, const NodeSeats& seats,
+                           peer::Session& session) {
+  assert(session.window() == window_);
+  const double start = session.peer().now();
+  const Round own{.window = window_, .keys = take_keys(game, seats, start)};
+  const std::vector<Round> rounds = said_by_all(members, own, state_of(session));
+  for (peer::PeerNumber from = 0; from < rounds.size(); ++from)
+    for (const RoundKey& key : rounds[from].keys) {
+      if (!holds(seats, from, key.player)) {
+        const std::string fault =
+            "presses a key of player " + std::to_string(key.player) + ", who does not play there";
+        if (members.left().size() <= 2)
+          throw peer::ProtocolError("peer " + std::to_string(from) + " " + fault);
+        if (!members.is_lost(from)) members.give_up(from, fault);
+        continue;
+      }
+      const double thrust = game.scene().bodies.bats[key.player].thrust;
+      feel({.bat = game.start().bat(key.player)->index,
+            .thrust = thrust_of(key, thrust),
+            .input = static_cast<std::uint8_t>(key.code % 8 + 1),
+            .time = start + key.steps * key_grid},
+           key.player, session);
+    }
+  ++window_;
+}
+
+void MatchRounds::confirm(MatchMembers& members, std::uint64_t state) {
+  said_by_all(members, {.window = window_}, state);
 }
 
 }  // namespace rink::game

@@ -3,12 +3,15 @@
 
 #include <cassert>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "game/model/key.h"
 #include "game/net/peer/shared_game.h"
+#include "game/node/match/match_members.h"
 #include "game/node/node_seats.h"
 #include "game/peer/messages.h"
 #include "game/peer/session/session.h"
@@ -57,25 +60,40 @@ peer::Vector2 thrust_of(const RoundKey& key, double thrust);
 class MatchRounds {
  public:
   /// Another session begins, in which nothing is pressed.
-  void begin_session() { window_ = 0, pressed_.clear(); }
+  void begin_session() { window_ = 0, pressed_.clear(), felt_.clear(); }
   /// A key of a player of this node, which waits for the next round.
   void press(const peer::Press& press) { pressed_.push_back(press); }
+  /// Equal at all, after the last round of a lost node: the keys of its player that all that was
+  /// said leaves pressed are released after that, from `from_s` on [s], when the window after the
+  /// next round ends.
+  void release(const SharedGame& game, std::uint32_t player, double from_s, peer::Session& session);
+  /// How many rounds of the session are over.
+  std::uint64_t window() const { return window_; }
   /// Before a window of the session, of which this node plays the whole: says what was pressed
   /// here, waits for the others, and lets the session feel all keys. Keys of a bat wait until it
-  /// has been given to this node. Throws peer::ProtocolError, which names who has said what cannot
-  /// be, and peer::Halt.
-  void exchange(peer::Mail& mail, const SharedGame& game, const NodeSeats& seats,
+  /// has been given to this node. Who says what cannot be is given up, if others can go on. Throws
+  /// peer::ProtocolError, which names it, and peer::Halt.
+  void exchange(MatchMembers& members, const SharedGame& game, const NodeSeats& seats,
                 peer::Session& session);
   /// After the last window: all have ended in the same state. Throws as `exchange` does.
-  void confirm(peer::Mail& mail, const NodeSeats& seats, std::uint64_t state);
+  void confirm(MatchMembers& members, std::uint64_t state);
 
  private:
   std::vector<RoundKey> take_keys(const SharedGame& game, const NodeSeats& seats, double start);
-  /// By node, the own one included.
-  std::vector<Round> said_by_all(peer::Mail& mail, const NodeSeats& seats, Round own,
-                                 std::uint64_t state);
+  /// By node, the own one included; without keys of those that say nothing, or what cannot be.
+  std::vector<Round> said_by_all(MatchMembers& members, Round own, std::uint64_t state) const;
 
-  std::uint64_t window_ = 0;  ///< how many rounds of the session are over
+  /// By what was said in all rounds.
+  struct Felt {
+    KeysHeld held;
+    double last = 0.0;        ///< when its last key is felt [s]
+    double released_s = 0.0;  ///< not before that, since a lost node's were released then
+  };
+  /// All nodes feel it.
+  void feel(peer::Press press, std::uint32_t player, peer::Session& session);
+
+  std::uint64_t window_ = 0;
+  std::map<std::uint32_t, Felt> felt_;  ///< by player
   std::vector<peer::Press> pressed_;
 };
 

@@ -23,7 +23,7 @@ bool exchange(Stream& stream, MatchWish& wish) {
          wish.player < 2;
 }
 
-/// How the match stands, which node 0 says.
+/// How the match stands, which the referee says.
 struct MatchNews {
   MatchState state;               ///< times are since the nodes' start
   std::uint64_t session = 0;      ///< the session that all play, counted from 1; 0: none so far

@@ -21,8 +21,15 @@ std::uint32_t NodeRecovery::bat_of(std::uint32_t player) const {
   return parts_.game.start().bat(player)->index;
 }
 
+void NodeRecovery::host(MatchRecovery::Hooks hooks, NodeMatch& match) {
+  hooks.receive = handle_;
+  matches_.emplace(MatchRecovery::Parts{parts_.network, parts_.game, parts_.seats, match},
+                   std::move(hooks));
+}
+
 std::optional<bool> NodeRecovery::sort(peer::PeerNumber from,
                                        const std::vector<std::uint8_t>& bytes) {
+  if (matches_) return matches_->sort(from, bytes);
   if (bytes.size() < node_message_tail) return false;
   const std::uint16_t theirs = recoveries_in(bytes), own = parts_.network.recoveries;
   const bool is_replicated = parts_.network.terms().is_replicated;

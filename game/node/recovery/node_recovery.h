@@ -18,6 +18,7 @@
 #include "game/node/node_subscription.h"
 #include "game/node/part_receiver.h"
 #include "game/node/part_teller.h"
+#include "game/node/recovery/match_recovery.h"
 #include "game/node/recovery/stand_in.h"
 #include "game/node/seated_players.h"
 #include "game/node/window_feed.h"
@@ -38,6 +39,9 @@ class NodeRecovery final : public LossParticipant {
     SeatedPlayers& players;
     NodeSubscription& subscription;
   };
+  /// Where this node hosts matches, their recovery takes the place of all that follows.
+  void host(MatchRecovery::Hooks hooks, NodeMatch& match);
+  MatchRecovery* matches() { return matches_ ? &*matches_ : nullptr; }
   /// False for what no node says.
   using Handler = std::function<bool(peer::PeerNumber from, const std::vector<std::uint8_t>&)>;
   NodeRecovery(const Parts& parts, Handler handle);
@@ -78,6 +82,7 @@ class NodeRecovery final : public LossParticipant {
 
   Parts parts_;
   Handler handle_;
+  std::optional<MatchRecovery> matches_;
   std::deque<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>> early_;
   std::vector<std::pair<peer::PeerNumber, StandIn>> stand_ins_;  ///< with who says it
   std::map<std::uint32_t, KeysHeld> held_;  ///< by bat, by the keys that were felt

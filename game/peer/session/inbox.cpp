@@ -117,6 +117,8 @@ void Inbox::count_alarm(PeerNumber from) {
 void Inbox::recovered() {
   must_recover_ = false;
   std::ranges::fill(said_, 0);
+  // Of the next loss all are told, even if there is nothing else to tell than at the last one.
+  for (std::vector<std::uint8_t>& told : told_) told.clear();
   const std::size_t gone = losses_.gone().size();
   if (std::exchange(gone_before_, gone) != gone) std::ranges::fill(alarms_, 0);
 }

@@ -73,11 +73,19 @@ void PeerConversation::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes
     links_.keep_for(to, std::move(bytes));
 }
 
-std::optional<std::vector<std::uint8_t>> PeerConversation::take_mail(peer::PeerNumber from) {
-  if (!sent_away_.empty()) throw peer::SentAway(sent_away_);
+void PeerConversation::check_losses() const {
   for (const auto& [connection, other] : links_.all())
     if (other.role == LinkRole::peer && other.is_counted && !other.loss.empty() && !other.is_parted)
       throw peer::PeerGone(other.number, false, other.loss);
+}
+
+std::optional<std::vector<std::uint8_t>> PeerConversation::take_mail(peer::PeerNumber from) {
+  if (!sent_away_.empty()) throw peer::SentAway(sent_away_);
+  check_losses();
+  return next_mail(from);
+}
+
+std::optional<std::vector<std::uint8_t>> PeerConversation::next_mail(peer::PeerNumber from) {
   PeerLink* const link = links_.at(from);
   if (!link || link->inbox.empty()) return std::nullopt;
   std::vector<std::uint8_t> first = std::move(link->inbox.front());

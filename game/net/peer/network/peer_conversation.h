@@ -32,6 +32,10 @@ class PeerConversation {
   /// The next mail of `from`, if it is here. Throws peer::PeerGone for a peer that is lost, and
   /// peer::SentAway if this newcomer was not admitted.
   std::optional<std::vector<std::uint8_t>> take_mail(peer::PeerNumber from);
+  /// The same, also of a peer that is lost, and of no other peer's loss anything.
+  std::optional<std::vector<std::uint8_t>> next_mail(peer::PeerNumber from);
+  /// Throws as `take_mail` does for peers that are lost.
+  void check_losses() const;
   /// Without mail of `from`: throws peer::PeerGone or SessionError if none will come, and loses it
   /// if it was silent for too long. True if more may come.
   bool may_still_come(peer::PeerNumber from, const Patience& patience);

@@ -99,6 +99,16 @@ void PeerNetwork::rest_until(double time_s) {
   while (now_s_() < time_s && !must_end_());
 }
 
+std::optional<std::vector<std::uint8_t>> PeerNetwork::next_mail(peer::PeerNumber from) {
+  if (auto mail = conversation_.next_mail(from)) return mail;
+  if (!waiting_)
+    waiting_.emplace(patience_s_, std::max(0.5 * patience_s_, 2.0 * wait_s_max), now_s_());
+  waiting_->look(now_s_());
+  conversation_.may_still_come(from, *waiting_);
+  conversation_.check_losses();
+  return std::nullopt;
+}
+
 void PeerNetwork::leave(const Farewell& farewell) {
   conversation_.bid_farewell(farewell);
   // Closing a connection before all is read may discard the last bytes sent.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -46,6 +47,7 @@ class PeerNetwork final : public SessionNetwork, private rti::TransportListener 
   /// Closes all connections without a message.
   void abandon() { links_.abandon(); }
   void rest_until(double time_s) override;
+  std::optional<std::vector<std::uint8_t>> next_mail(peer::PeerNumber from) override;
   void leave(const Farewell& farewell) override;
 
   const Terms& terms() const override { return roster_.terms(); }
@@ -103,6 +105,7 @@ class PeerNetwork final : public SessionNetwork, private rti::TransportListener 
   PeerAdmission admission_;
   PeerDialling dialling_;
   PeerConversation conversation_;
+  std::optional<Patience> waiting_;  ///< for other things than mail
 };
 
 }  // namespace rink::game

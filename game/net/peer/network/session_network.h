@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "game/net/interrupt.h"
@@ -53,6 +55,12 @@ class SessionNetwork : public peer::Mail, public SideChannel {
   virtual rti::TransportCounters sent_to(peer::PeerNumber member) const = 0;
   /// Sends a farewell to all, and waits until all bytes are sent.
   virtual void leave(const Farewell& farewell) = 0;
+  /// For those that wait for something else than mail, where members can be lost: the next mail of
+  /// `from`, if it has come, even if that member is gone. Never waits. Without mail it throws as
+  /// receive() does if a member is gone, or `from` was silent for too long.
+  virtual std::optional<std::vector<std::uint8_t>> next_mail(peer::PeerNumber /*from*/) {
+    return std::nullopt;
+  }
 };
 
 }  // namespace rink::game
