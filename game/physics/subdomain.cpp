@@ -206,7 +206,7 @@ bool Subdomain::is_held_along(const BodyState& state, int axis) {
   return (state.flags & Body::held_along(axis)) != 0;
 }
 
-void Subdomain::release(BodyState& state, int axis) {
+void release(BodyState& state, int axis) {
   assert(axis == 0 || axis == 1);
   state.flags = static_cast<std::uint8_t>(state.flags & ~Body::held_along(axis));
 }

@@ -60,8 +60,6 @@ class Subdomain {
   static bool is_frozen(const BodyState& state);
   /// Whether it is in a rest contact along axis 0 or 1.
   static bool is_held_along(const BodyState& state, int axis);
-  /// In no rest contact along the axis any more.
-  static void release(BodyState& state, int axis);
   /// As it was when the window began.
   BodyState state_before(std::uint32_t body) const { return before_->state(slot(body)); }
   /// The body's path from then to its first change.
@@ -142,5 +140,8 @@ class Subdomain {
 
 /// World::hash() of the larger world, if all of it that is not removed is there.
 std::uint64_t hash_of(const Subdomain& part);
+
+/// So that the body is in no rest contact along axis 0 or 1 any more.
+void release(BodyState& state, int axis);
 
 }  // namespace rink::physics::inline RINK_PRECISION

@@ -53,7 +53,7 @@ void release_unheld(Part& part) {
       };
       if (physics::Subdomain::is_held_along(state, axis) &&
           std::ranges::none_of(part.rest_contacts, holds))
-        physics::Subdomain::release(state, axis);
+        physics::release(state, axis);
     }
 }
 
