@@ -56,7 +56,7 @@ void TileJournal::take(const EventOrder& order) {
   const Journal& from = *journal_;
   const std::span<const Change> changes = std::span(from.changes).subspan(mark_.changes);
   const auto entered = std::span(from.entered).subspan(mark_.entered);
-  assert(from.times.size() == mark_.times + 1 && changes.size() <= 0xffff);
+  assert(from.times.size() == mark_.times + 1);  // of very many changes the window is undone
   entries_.push_back({.order = order,
                       .change = static_cast<std::uint32_t>(changes_.size()),
                       .entered = static_cast<std::uint32_t>(entered_.size()),

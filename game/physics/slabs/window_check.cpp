@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -88,37 +89,49 @@ bool WindowCheck::meets_unseen(const Courses::Late& late, Real speed) const {
   for (std::uint32_t row = range.row_low; row <= range.row_high; ++row)
     for (std::uint32_t column = range.column_low; column <= range.column_high; ++column) {
       if (!(shared_.played[std::size_t{row} * grid.columns() + column] > late.from)) continue;
-      grid.within({column, row, column, row},
-                  [&](std::uint32_t other) { meets = meets || meets_unseen(late, other, end); });
+      grid.within({column, row, column, row}, [&](std::uint32_t other) {
+        meets = meets || meets_unseen(late, other, end, speed);
+      });
     }
   return meets;
 }
 
-bool WindowCheck::meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const {
+bool WindowCheck::meets_unseen(const Courses::Late& late, std::uint32_t other, Real end,
+                               Real speed) const {
   if (other == late.body) return false;
+  const bool has_journal = shared_.observers.journal != nullptr;
+  if (has_journal && !parts_.bodies.is_fixed(other) && !is_in_sight(late, other) &&
+      touched_unseen(late, {other, parts_.bodies[other]}, speed))
+    return true;  // it has crossed to cells out of sight
   if (meets_by(late, {other, parts_.bodies[other]}, end)) return true;
   for (std::uint32_t at = latest_of(other); at != Courses::none;) {
     const Courses::Replaced& r = course_at(at);
     if (!(r.end > late.from)) return false;
-    if (shared_.observers.journal != nullptr && touched_unseen(late, r)) return true;
+    if (has_journal && touched_unseen(late, {other, r.flight}, speed)) return true;
     if (meets_by(late, {other, r.flight}, std::min(r.end, end))) return true;
     at = r.earlier;
   }
   return false;
 }
 
+/// In straight flight nobody who is in sight when the window is over was out of it before.
+bool WindowCheck::is_in_sight(const Courses::Late& late, std::uint32_t other) const {
+  const CellGrid::Place here = late.place, there = parts_.places.grid().place(other);
+  return std::abs(int{here.column} - int{there.column}) <= 1 &&
+         std::abs(int{here.row} - int{there.row}) <= 1;
+}
+
 /// Whether somebody who has been played further touched the body in the impact that began its late
 /// course, by four times the roundings that JointImpacts allows: the two do not meet, but a journal
-/// is told of it. Within 1e-6 m somebody was in every tenth window of a dense gas.
-bool WindowCheck::touched_unseen(const Courses::Late& late, const Courses::Replaced& other) const {
+/// is told of it. `speed` is the window's greatest, for velocities before the impact count. Within
+/// 1e-6 m somebody was in every tenth window of a dense gas.
+bool WindowCheck::touched_unseen(const Courses::Late& late, const Course& other, Real speed) const {
   const bool began_late = late.flight.time >= late.from;  // by an impact
   if (!began_late || !(other.flight.time < late.from)) return false;
-  const RealVector there = motion_of({other.body, other.flight}).at(late.from).position,
+  const RealVector there = motion_of(other).at(late.from).position,
                    offset = RealVector(late.flight.x, late.flight.y) - there;
-  const Real speed = std::hypot(late.flight.vx, late.flight.vy) +
-                     std::hypot(other.flight.vx, other.flight.vy),
-             rounding = offset_tolerance(parts_.spec) +
-                        std::numeric_limits<Real>::epsilon() * late.from * speed;
+  const Real rounding =
+      offset_tolerance(parts_.spec) + std::numeric_limits<Real>::epsilon() * late.from * speed;
   return shape_of(parts_.bodies, late.body, other.body).gap(offset).distance <= 64.0 * rounding;
 }
 

@@ -37,8 +37,9 @@ class WindowCheck {
   bool are_right(std::span<const Courses::Late> late, Real speed) const;
   CellGrid::Range range_of(const Courses::Late& late, Real end, Real speed) const;
   bool meets_unseen(const Courses::Late& late, Real speed) const;
-  bool meets_unseen(const Courses::Late& late, std::uint32_t other, Real end) const;
-  bool touched_unseen(const Courses::Late& late, const Courses::Replaced& other) const;
+  bool meets_unseen(const Courses::Late& late, std::uint32_t other, Real end, Real speed) const;
+  bool touched_unseen(const Courses::Late& late, const Course& other, Real speed) const;
+  bool is_in_sight(const Courses::Late& late, std::uint32_t other) const;
   bool meets_by(const Courses::Late& late, const Course& other, Real end) const;
   Motion motion_of(const Course& course) const;
   std::uint32_t latest_of(std::uint32_t body) const;
