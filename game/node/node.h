@@ -39,8 +39,8 @@ struct NodeSettings {
   double gathering_s = 30.0;       ///< how long it waits until all nodes are there
   SchemeReach reach{};      ///< of this node's filter: how far beyond its region a client may see
   double absence_s = 30.0;  ///< for which a player's bat is kept; node 0's holds
-  std::optional<FlowTimes> hosting{};  ///< matches, one after the other; node 0's times hold. Bats
-                                       ///< are not kept then, but given to whoever comes.
+  std::optional<FlowTimes> hosting{};  ///< matches, one after the other; the referee's times hold.
+                                       ///< Bats are not kept then, but given to whoever comes.
   std::function<void(const std::string&)> notify{};  ///< the user, of losses; by the node's thread
 };
 

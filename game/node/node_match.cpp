@@ -13,7 +13,18 @@ void NodeMatch::wish(const MatchWish& wish) {
 
 std::vector<MatchWish> NodeMatch::take_wishes() {
   const std::lock_guard lock(mutex_);
+  for (const MatchWish& each : wishes_)
+    if (each.kind == MatchWish::Kind::rematch) {
+      std::erase(rematches_, each);
+      rematches_.push_back(each);
+    }
   return std::exchange(wishes_, {});
+}
+
+void NodeMatch::ask_again() {
+  for (const MatchWish& each : std::exchange(rematches_, {}))
+    if (each.player < news_.state.wants_rematch.size() && !news_.state.wants_rematch[each.player])
+      wish(each);
 }
 
 /// Before a match's session has begun here, nobody plays it here.
@@ -47,6 +58,7 @@ bool NodeMatch::follow(const MatchNews& news) {
   news_ = news;
   if (news.session == begun_) last_window_ = news.last_window;
   const std::lock_guard lock(mutex_);
+  if (news.state.phase != MatchPhase::over) rematches_.clear();
   state_ = news.state;
   return true;
 }
@@ -127,6 +139,7 @@ void NodeMatch::lead(std::array<bool, 2> are_seated, double now_s) {
 }
 
 void NodeMatch::fall_behind(double now_s, double simulated_s) {
+  flow_.advance(now_s);  // a countdown may have ended while nobody could say so
   if (flow_.runs())
     flow_.fall_behind(now_s, std::min(simulated_s, simulated_at(flow_.state(), now_s)));
 }

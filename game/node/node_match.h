@@ -37,6 +37,8 @@ class NodeMatch final : public SharedMatch {
   bool has_shown_all() const;
 
   std::vector<MatchWish> take_wishes();
+  /// Another node is the referee now: rematches of which the news show nothing are asked again.
+  void ask_again();
   MatchRounds& rounds() { return rounds_; }
   const MatchNews& news() const { return news_; }
   /// False for what the referee never says.
@@ -99,6 +101,7 @@ class NodeMatch final : public SharedMatch {
   std::uint64_t begun_ = 0, ended_stretches_ = 0;  ///< sessions; and stretches of those that ended
   std::uint32_t match_ = 0;                        ///< of the session that began last
   std::uint64_t last_window_ = 0;                  ///< of the session that goes on; 0: not known
+  std::vector<MatchWish> rematches_;  ///< that were passed on since the match was over
   mutable std::mutex mutex_;
   MatchState state_;              ///< guarded by `mutex_`, as are these:
   std::deque<Session> sessions_;  ///< that were not shown to their ends, and the last one

@@ -72,6 +72,8 @@ struct HostNode {
                     told.push_back(text);
                   }},
              now_s) {}
+  /// Its thread may stand still.
+  ~HostNode() { mortality.is_thawed = true; }
 
   /// Shows what there is.
   void show() {

@@ -129,8 +129,9 @@ TEST_F(LostHosts, MayBeLostAboutTheWinningGoalWhichCountsOnce) {
     seat_both(1, 2);
     ASSERT_TRUE(play([&] {
       return all_are([](const HostNode& node) {
-               return node.state.winner.has_value() || node.state.phase == MatchPhase::waiting ||
-                      node.state.phase == MatchPhase::away;
+               return node.state.number > 0 &&
+                      (node.state.winner.has_value() || node.state.phase == MatchPhase::waiting ||
+                       node.state.phase == MatchPhase::away);
              }) &&
              (at(lost).mortality.is_dead || last == 0);
     }));

@@ -75,6 +75,10 @@ void require_node(const ServeOptions& options) {
         "--evidence and --threads can't be given with them");
   if (options.is_rank && !options.hosted.empty())
     throw std::runtime_error("--transport mpi: expected no hosted match, which --nodes can play");
+  if (!options.hosted.empty() && options.duration_s > 0.0)
+    throw std::runtime_error(
+        "--duration: nodes host matches until they are interrupted, and then say whether others "
+        "may have gone on without them");
   if (options.join.empty() && options.hosted.empty() && options.duration_s == 0.0)
     throw std::runtime_error(
         "--nodes, --transport mpi: expected a --duration above 0, at which all end together");

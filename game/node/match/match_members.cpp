@@ -94,7 +94,9 @@ bool MatchMembers::hear(peer::PeerNumber from, Bytes bytes) {
     return false;
   }
   if (LastWords words; settings_.is_replicated && peer::read_whole(bytes, words)) {
-    told_[from].push_back(std::move(words));
+    std::deque<LastWords>& told = told_[from];
+    if (told.size() >= count()) told.pop_front();  // no more attempts than losses
+    told.push_back(std::move(words));
     inbox_.count_word(from);
     return false;
   }

@@ -20,7 +20,7 @@ namespace rink::game {
 
 /// A key of a player's bat.
 struct RoundKey {
-  static constexpr std::uint32_t codes = 8 * 9, steps_max = 1u << 17;  ///< two seconds
+  static constexpr std::uint32_t codes = 8 * 9, steps_max = 1u << 15;  ///< half a second
   std::uint32_t player = 0;
   std::uint32_t code = 0;   ///< the input (peer::Key) less 1, and 8 times the direction of the held
                             ///< keys: 0 to 8, by rows of y and in them by x

@@ -68,26 +68,30 @@ bool MatchRecovery::hear_news(peer::PeerNumber from, std::span<const std::uint8_
 /// Of the words that another has heard of the referee, this one has heard the first ones.
 bool MatchRecovery::hear_last(const RefereeWords& words) {
   const std::uint64_t known = log_.words().count;
+  if (words.count > known + early_max || words.news.number > words.count ||
+      words.decisions.size() > early_max)
+    return false;
   std::uint64_t last = 0;
+  for (const Numbered<SeatDecision>& each : words.decisions)
+    if (each.number < std::exchange(last, each.number) || each.number > words.count) return false;
   for (const Numbered<SeatDecision>& each : words.decisions) {
-    if (each.number < last || each.number > words.count) return false;
-    last = each.number;
     if (each.number <= known) continue;
     if (!hooks_.decide(each.word)) return false;
     log_.add(each);
   }
   const bool are_news = words.news.number > log_.words().news.number;
-  if (words.news.number > words.count || (are_news && !parts_.match.follow(words.news.word)))
-    return false;
+  if (are_news && !parts_.match.follow(words.news.word)) return false;
   if (are_news) log_.add(words.news);
   log_.adopt(words.count);
   return true;
 }
 
 void MatchRecovery::when_recovered() {
-  const bool was_referee = parts_.seats.referee() == members_.number();
+  const peer::PeerNumber before = parts_.seats.referee();
+  const bool was_referee = before == members_.number();
   parts_.network.recoveries = static_cast<std::uint16_t>(members_.lost_count());
   parts_.seats.follow(members_.referee());
+  if (before != members_.referee()) parts_.match.ask_again();
   const double now_s = hooks_.clock_s();
   if (is_referee()) {
     if (!was_referee)
@@ -99,7 +103,9 @@ void MatchRecovery::when_recovered() {
     const std::vector<SeatTable::Seated> seated = parts_.seats.lose(lost);
     if (!is_referee()) continue;
     for (const SeatTable::Seated& each : seated)
-      parts_.seats.wish({.change = SeatChange::leave, .player = each.player, .token = each.token});
+      // Heard at once: who waits for a bat may ask before this node passes on wishes.
+      parts_.seats.hear(members_.number(),
+                        {.change = SeatChange::leave, .player = each.player, .token = each.token});
   }
   tell_of_losses();
   for (auto& [from, bytes] : std::exchange(early_, {})) {

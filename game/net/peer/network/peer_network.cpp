@@ -104,8 +104,8 @@ std::optional<std::vector<std::uint8_t>> PeerNetwork::next_mail(peer::PeerNumber
   if (!waiting_)
     waiting_.emplace(patience_s_, std::max(0.5 * patience_s_, 2.0 * wait_s_max), now_s_());
   waiting_->look(now_s_());
-  conversation_.may_still_come(from, *waiting_);
   conversation_.check_losses();
+  conversation_.may_still_come(from, *waiting_);
   return std::nullopt;
 }
 
