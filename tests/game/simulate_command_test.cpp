@@ -264,7 +264,7 @@ TEST_F(SimulateCommand, RefusesNoThreadsAndMoreThanBodiesOrThanAnyMachineRuns) {
 
 TEST_F(SimulateCommand, WritesTheResultsOfTheInstantAtWhichItIsInterrupted) {
   const std::string command =
-      "timeout --preserve-status -s INT 0.5 " + test::binary_folder() +
+      "timeout --foreground --preserve-status -s INT 0.5 " + test::binary_folder() +
       "/bin/rink-simulate crowd --bats 5 --players chaser --until 1e6 --states " +
       file("states.csv") + " --events " + file("events.csv") + " --record " + file("keys") + " >" +
       file("printed") + " 2>" + file("said");
