@@ -235,6 +235,15 @@ TEST_F(MatchesAtNodes, GoOnWithoutANodeThatIsKilled) {
   }
 }
 
+TEST_F(MatchesAtNodes, AreNotHostedForADuration) {
+  const Words words{"match", "--nodes", "2", "--node-listen", "127.0.0.1:0", "--duration", "5"};
+  const Process& host = *peers_.emplace_back(
+      std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", words));
+  ASSERT_TRUE(ends(host));
+  EXPECT_EQ(host.ending()->exit_status, 2);
+  EXPECT_THAT(host.stderr_tail(), HasSubstr("--duration: nodes host matches until"));
+}
+
 TEST_F(MatchesAtNodes, RefuseAThirdPlayerAtEitherNode) {
   host("100");
   begin_match();
