@@ -117,6 +117,10 @@ TEST_F(PeerCommand, SaysWhatItCannotPlay) {
   ASSERT_TRUE(ends(goals));
   EXPECT_EQ(goals.ending()->exit_status, 2);
   EXPECT_THAT(goals.stderr_tail(), HasSubstr("windows are 0.200000 s long: expected shorter ones"));
+  const Process& grid = start({"--listen", "127.0.0.1:0"}, "crowd-grid");
+  ASSERT_TRUE(ends(grid));
+  EXPECT_EQ(grid.ending()->exit_status, 2);
+  EXPECT_THAT(grid.stderr_tail(), HasSubstr("has a network_grid, and peers and nodes cannot yet"));
   const Process& alone = start({"--join", "127.0.0.1:1"});
   ASSERT_TRUE(ends(alone));
   EXPECT_EQ(alone.ending()->exit_status, static_cast<int>(ExitStatus::no_server));
