@@ -33,21 +33,22 @@ std::string named(const char* what, std::uint32_t number, const char* fault) {
   return std::string(what) + " " + std::to_string(number) + " " + fault;
 }
 
-bool names(const RestContact& rest, std::uint32_t body, int axis) {
-  return rest.axis == axis && (rest.low == body || rest.high == body);
-}
-
 /// True if the message has the contacts of a body that is marked as in rest contact.
 bool has_its_holds(const Handover::Body& body, const std::vector<RestContact>& rest_contacts) {
   for (const int axis : {0, 1})
     if (physics::Subdomain::is_held_along(body.state, axis) &&
-        std::none_of(rest_contacts.begin(), rest_contacts.end(),
-                     [&](const RestContact& rest) { return names(rest, body.number, axis); }))
+        !is_held_by(rest_contacts, body.number, axis))
       return false;
   return true;
 }
 
 }  // namespace
+
+bool is_held_by(const std::vector<RestContact>& rest_contacts, std::uint32_t body, int axis) {
+  return std::ranges::any_of(rest_contacts, [&](const RestContact& rest) {
+    return rest.axis == axis && (rest.low == body || rest.high == body);
+  });
+}
 
 BodyConstants BodyConstants::of(const BodyState& state) {
   return {state.flight.radius, state.mass,     state.inverse_mass, state.half_extent,

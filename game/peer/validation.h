@@ -25,6 +25,9 @@ struct BodyConstants {
   friend bool operator==(const BodyConstants&, const BodyConstants&) = default;
 };
 
+/// Whether one of the contacts holds the body along axis 0 or 1.
+bool is_held_by(const std::vector<RestContact>& rest_contacts, std::uint32_t body, int axis);
+
 /// Knows the scene, so that it detects what no honest peer sends: unknown bodies, NaN, bodies with
 /// another radius, mass, material or kind than in the scene. Claims and digests detect messages
 /// that are possible but false (docs/peer-to-peer.md).

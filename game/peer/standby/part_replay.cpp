@@ -47,14 +47,10 @@ std::string fault_of_input(const PartInput& input, const Validator& scene, doubl
 /// it.
 void release_unheld(Part& part) {
   for (auto& [body, state] : part.bodies)
-    for (const int axis : {0, 1}) {
-      const auto holds = [body = body, axis](const RestContact& rest) {
-        return rest.axis == axis && (rest.low == body || rest.high == body);
-      };
+    for (const int axis : {0, 1})
       if (physics::Subdomain::is_held_along(state, axis) &&
-          std::ranges::none_of(part.rest_contacts, holds))
+          !is_held_by(part.rest_contacts, body, axis))
         physics::release(state, axis);
-    }
 }
 
 }  // namespace
