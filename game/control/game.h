@@ -118,7 +118,8 @@ class Game {
     return *world_;
   }
   const MatchRules& rules() const { return rules_; }
-  /// Whom the last `advance` could not put on it is in left_off(). Of the exact engine alone.
+  /// Only the exact engine uses it. Its left_off() lists the bodies that had no room on it in the
+  /// last `advance`.
   const NetworkGrid& network_grid() const { return grid_; }
 
   /// All present entities, in order of id. A scored puck stays, out of play, until its face-off.

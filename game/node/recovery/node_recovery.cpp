@@ -1,5 +1,5 @@
-// A node goes back in this order, since each part depends on the one before: what was played, what
-// is told, keys, seats.
+// Undoes a node's steps in this order, since each part depends on the one before: the windows
+// played, the messages to other nodes, the keys, the seats.
 #include "game/node/recovery/node_recovery.h"
 
 #include <algorithm>

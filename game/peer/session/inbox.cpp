@@ -141,9 +141,9 @@ void Inbox::tell(const State& now) {
   }
 }
 
-/// A decision that is changed on a link reaches all members below it changed. If the two ends of a
-/// link differ, one of them lies, and nobody else can know which; a member that differs from
-/// several others is the liar.
+/// A liar may change a decision on its way down the tree. If the two ends of a link report
+/// different decisions, one end lies, and the other members cannot tell which; a member that
+/// differs from several others is the liar.
 std::vector<Losses::Sentence> Inbox::parted_links(const State& now) const {
   struct Link {
     PeerNumber above, below;

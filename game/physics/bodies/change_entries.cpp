@@ -33,8 +33,8 @@ std::uint64_t conditions_of(const Bodies& bodies, std::uint32_t body) {
 
 namespace {
 
-/// Those whom the event at hand found where they came only later; nobody was near enough to matter,
-/// or the window is found to be wrong.
+/// Drops the bodies that the current event found at places which they reached only after it. None
+/// of them was near enough to take part, or else the check rejects the window.
 void forget_later(Journal& journal, const Bodies& bodies) {
   const auto later = std::erase_if(journal.looked_at, [&](std::uint32_t body) {
     return bodies[body].time > journal.time && !bodies[body].is(Body::touched);
