@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "game/physics/rounding/motion_grid.h"
+#include "im/basics/sorted_set.h"
 
 namespace rink::game {
 
@@ -14,9 +15,7 @@ void NetworkGrid::round(physics::World& world) {
   ++done_;
   const std::span<const physics::BodyId> changed = world.changed(cursor_);
   changed_.assign(changed.begin(), changed.end());
-  std::ranges::sort(changed_);
-  const auto [first, last] = std::ranges::unique(changed_);
-  changed_.erase(first, last);
+  make_sorted_set(changed_);
   for (const physics::BodyId body : changed_)
     if (physics::MotionGrid::put(world, body, since) == physics::MotionGrid::Result::left_off)
       left_off_.push_back(body);

@@ -42,8 +42,8 @@ bool NodeSeats::hear(peer::PeerNumber from, const SeatWish& wish) {
 std::vector<SeatDecision> NodeSeats::decide(std::uint64_t window, double now_s) {
   assert(own_ == referee_);
   std::vector<SeatDecision> decisions;
-  std::ranges::stable_partition(
-      heard_, [](const auto& each) { return each.second.change != SeatChange::enter; });
+  std::stable_partition(heard_.begin(), heard_.end(),
+                        [](const auto& each) { return each.second.change != SeatChange::enter; });
   for (const auto& [from, wish] : std::exchange(heard_, {})) {
     decisions.push_back(table_.decide(from, wish, now_s));
     decisions.back().window = window;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "im/basics/checked.h"
+#include "im/basics/sorted_set.h"
 
 namespace rink::peer {
 
@@ -17,11 +18,6 @@ std::string text_of(const Box& box) {
   text << "x " << box.low_x << " to " << box.high_x << " m, y " << box.low_y << " to " << box.high_y
        << " m";
   return text.str();
-}
-
-void sort_out(std::vector<double>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace
@@ -43,7 +39,7 @@ std::optional<std::string> Division::objection(const physics::Field& field,
     xs.push_back(box.low_x), xs.push_back(box.high_x), ys.push_back(box.low_y),
         ys.push_back(box.high_y);
   }
-  sort_out(xs), sort_out(ys);
+  make_sorted_set(xs), make_sorted_set(ys);
   for (std::size_t i = 0; i + 1 < xs.size(); ++i)
     for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
       const Box cell{xs[i], ys[j], xs[i + 1], ys[j + 1]};

@@ -1,5 +1,6 @@
 // Two sorted lists, merged at each look.
 #include "game/physics/movers.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 
@@ -8,8 +9,7 @@ namespace rink::physics::inline RINK_PRECISION {
 void Movers::look(const World& world) {
   const std::span<const BodyId> changed = world.changed(cursor_);
   changed_.assign(changed.begin(), changed.end());
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  make_sorted_set(changed_);
   if (changed_.size() == world.body_count()) moving_.clear();  // it may be another world's
   still_moving_.clear();
   auto next = moving_.begin();

@@ -10,6 +10,7 @@
 #include "game/replication/names.h"
 #include "game/replication/trajectory.h"
 #include "im/basics/checked.h"
+#include "im/basics/sorted_set.h"
 #include "rti/time/federate_clock.h"
 
 namespace rink::game {
@@ -120,8 +121,7 @@ void Publisher::gather(const Game& game, std::span<const std::uint32_t> felt) {
       if (published.object && input_of(game, published.entity, felt) != published.input)
         looked_.push_back(*bat);
     }
-  std::sort(looked_.begin(), looked_.end());
-  looked_.erase(std::unique(looked_.begin(), looked_.end()), looked_.end());
+  make_sorted_set(looked_);
   assert(looked_.empty() || looked_.back().index < published_.size());
 }
 

@@ -1,5 +1,6 @@
 // Adds losses in order, and counts who is left.
 #include "game/peer/session/losses.h"
+#include "im/basics/sorted_set.h"
 
 #include <cassert>
 #include <functional>
@@ -45,9 +46,7 @@ std::vector<PeerNumber> Losses::asked() const {
     for (const Question& question : heard_[from]->questions)
       if (!is_gone(question.peer)) peers.push_back(question.peer);
   }
-  std::ranges::sort(peers);
-  const auto twice = std::ranges::unique(peers);
-  peers.erase(twice.begin(), twice.end());
+  make_sorted_set(peers);
   return peers;
 }
 

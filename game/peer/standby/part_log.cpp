@@ -6,18 +6,9 @@
 #include <utility>
 
 #include "game/peer/standby/packed_states.h"
+#include "im/basics/sorted_set.h"
 
 namespace rink::peer {
-
-namespace {
-
-void make_sorted_set(std::vector<std::uint32_t>& bodies) {
-  std::ranges::sort(bodies);
-  const auto repeats = std::ranges::unique(bodies);
-  bodies.erase(repeats.begin(), repeats.end());
-}
-
-}  // namespace
 
 void PartLog::begin(const Validator& scene) {
   scene_ = &scene;

@@ -1,5 +1,6 @@
 // Makes observations of bats, and stamps the keys that answer them.
 #include "game/peer/window/live_players.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +138,7 @@ std::vector<PeerNumber> LivePlayers::strangers_due(const Window& window) const {
         halos_.is_present(seat.peer) && share_.owns(seat.bat) &&
         seat.is_due(window.start, window.end))
       peers.push_back(seat.peer);
-  std::ranges::sort(peers);
-  peers.erase(std::ranges::unique(peers).begin(), peers.end());
+  make_sorted_set(peers);
   return peers;
 }
 

@@ -1,5 +1,6 @@
 // Collects the bodies of a change, and their states.
 #include "game/peer/window/part_changes.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 
@@ -31,8 +32,7 @@ PartChange PartChanges::change(const Share& share, const TimedKeys& keys, bool i
                     .keys = {},
                     .log = {}};
   std::vector<std::uint32_t> bodies = is_whole ? share.roles().owned() : changed_;
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  make_sorted_set(bodies);
   for (const std::uint32_t body : bodies)
     if (share.owns(body)) change.bodies.push_back({body, share.state(body)});
   if (!is_whole) {

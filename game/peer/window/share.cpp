@@ -1,5 +1,6 @@
 // Decides between two windows who owns what, and who has ghosts of it.
 #include "game/peer/window/share.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 #include <functional>
@@ -111,8 +112,7 @@ void Share::find_owner(std::uint32_t body, const Vector2& place, const Box& reac
 
 Settlement Share::settle(std::vector<std::uint32_t> candidates, const Halos& halos) {
   std::erase_if(candidates, [&](std::uint32_t body) { return !subdomain_.is_there(body); });
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  make_sorted_set(candidates);
   std::vector<Vector2> places;
   std::vector<Box> reaches;
   for (const std::uint32_t body : candidates) {

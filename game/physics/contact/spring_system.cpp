@@ -1,5 +1,6 @@
 // The order of elimination, the triangle, and the way through it and back.
 #include "game/physics/contact/spring_system.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 #include <cassert>
@@ -47,8 +48,7 @@ void SpringSystem::connect(std::size_t body_count) {
   queue_.clear();
   for (std::uint32_t body = 0; body < body_count; ++body) {
     std::vector<std::uint32_t>& own = neighbours_[body];
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
+    make_sorted_set(own);
     queue_.emplace_back(static_cast<std::uint32_t>(own.size()), body);
   }
   std::make_heap(queue_.begin(), queue_.end(), std::greater<>());

@@ -8,6 +8,7 @@
 #include "game/physics/engine/rest_contacts.h"
 #include "game/physics/slabs/event_merge.h"
 #include "game/physics/slabs/slabs.h"
+#include "im/basics/sorted_set.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -144,8 +145,7 @@ void Slabs::look_anew() {
   lists_.add_due_to(listed_);
   for (Tile* tile : all_tiles_)
     for (const Courses::Replaced& r : tile->courses().replaced()) listed_.push_back(r.body);
-  std::sort(listed_.begin(), listed_.end());
-  listed_.erase(std::unique(listed_.begin(), listed_.end()), listed_.end());
+  make_sorted_set(listed_);
   for (const std::uint32_t body : listed_) {
     parts_.places.remove(body);
     parts_.places.insert(body, position_at(parts_.bodies, body, shared_.begin),

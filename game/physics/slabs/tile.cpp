@@ -337,12 +337,6 @@ bool Tile::is_late(const CellBlock& cells, Real time) {
   return false;
 }
 
-[[gnu::always_inline]] inline void Tile::mark_cell(const Place& place, Real time) {
-  Real& played =
-      shared_.played_at(place.column, place.row, static_cast<int>(places_.grid().columns()));
-  played = std::max(played, time);
-}
-
 bool Tile::mark(std::uint32_t body, Partner partner, Real time) {
   const CellGrid& grid = places_.grid();
   const CellBlock from = cells_of(grid, body),

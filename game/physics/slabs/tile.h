@@ -1,6 +1,7 @@
 // One part of the field that plays a window of time by itself.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -136,7 +137,11 @@ class Tile {
   bool is_late(const Place& place, Real time) {
     return is_late({place.column, place.row, place.column, place.row}, time);
   }
-  void mark_cell(const Place& place, Real time);
+  void mark_cell(const Place& place, Real time) {
+    Real& played =
+        shared_.played_at(place.column, place.row, static_cast<int>(places_.grid().columns()));
+    played = std::max(played, time);
+  }
   void mark_cells(const CellBlock& cells, Real time);
 
   SharedWindow& shared_;

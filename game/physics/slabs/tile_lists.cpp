@@ -1,5 +1,6 @@
 // One look at everybody's next event and cell.
 #include "game/physics/slabs/tile_lists.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 #include <cassert>
@@ -28,8 +29,7 @@ void TileLists::list_due(const Tiling& tiling, Real end, Workers* workers) {
 
 void TileLists::add_wide(std::span<const std::uint32_t> bodies) {
   wide_.insert(wide_.end(), bodies.begin(), bodies.end());
-  std::sort(wide_.begin(), wide_.end());
-  wide_.erase(std::unique(wide_.begin(), wide_.end()), wide_.end());
+  make_sorted_set(wide_);
 }
 
 void TileLists::list_wide(const Tiling& tiling, Real end) {

@@ -8,6 +8,7 @@
 
 #include "game/physics/bodies/impact_history.h"
 #include "game/physics/slabs/courses.h"
+#include "im/basics/sorted_set.h"
 
 namespace rink::physics::inline RINK_PRECISION {
 
@@ -115,9 +116,7 @@ void WindowJournal::keep_states(std::span<Tile* const> tiles, const BeforeImages
     whole_.insert(whole_.end(), more.begin(), more.end());
   }
   if (whole_.empty()) return;
-  std::ranges::sort(whole_);
-  const auto repeats = std::ranges::unique(whole_);
-  whole_.erase(repeats.begin(), repeats.end());
+  make_sorted_set(whole_);
   list_counts(tiles);
   for (const std::uint32_t body : whole_) {
     const bool was_kept = last_pass.has_changed(body) && !last_pass.has_flown_freely(body);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "game/replication/exact/rounded_play.h"
+#include "im/basics/sorted_set.h"
 
 namespace rink::game {
 namespace {
@@ -327,9 +328,7 @@ bool ExactReplicas::settle_groups() {
   for (const Body& body : bodies_)
     if (!body.is_computed && takes_part(body, group))
       settled.insert(settled.end(), group.begin(), group.end());
-  std::ranges::sort(settled);
-  const auto [first, last] = std::ranges::unique(settled);
-  settled.erase(first, last);
+  make_sorted_set(settled);
   if (settled.empty()) return true;
   if (!are_held_by_contacts(settled)) return false;
   std::vector<RestContact> rest_contacts = part_->rest_contacts();

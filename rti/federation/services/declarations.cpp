@@ -1,5 +1,6 @@
 // Handles publications and subscriptions, and advises publishers of others' subscriptions.
 #include "rti/federation/services/declarations.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 #include <cassert>
@@ -118,8 +119,7 @@ void Declarations::advise_object_relevance() {
   if (touched.empty()) return;
   uses_.distribution.watch_scope(
       std::ranges::any_of(advised_, [](const Advised& each) { return each.objects != nullptr; }));
-  std::ranges::sort(touched);
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  make_sorted_set(touched);
   for (const ObjectSlot object : touched)
     if (basis_.objects[object].is_alive) advise_owners_of(object);
   touched.clear();

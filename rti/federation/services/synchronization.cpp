@@ -1,6 +1,7 @@
 // Registers synchronisation points, and announces them as reached when the last federate has
 // achieved them.
 #include "rti/federation/services/synchronization.h"
+#include "im/basics/sorted_set.h"
 
 #include <algorithm>
 #include <cassert>
@@ -44,8 +45,7 @@ std::optional<SynchronizationFailure> Synchronization::find_members(
     if (!member) return SynchronizationFailure::member_not_joined;
     point.members.push_back(*member);
   }
-  std::sort(point.members.begin(), point.members.end());
-  point.members.erase(std::unique(point.members.begin(), point.members.end()), point.members.end());
+  make_sorted_set(point.members);
   return std::nullopt;
 }
 
