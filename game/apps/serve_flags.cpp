@@ -84,7 +84,9 @@ void add_options(Flags& flags, ServeOptions& options) {
       .shows_default();
   flags
       .option("--transport", options.transport,
-              "tcp; udp: best-effort attributes by UDP beside it; shm: shared memory, clients "
+              "tcp; udp: best-effort attributes by UDP beside it; bundle: the clients of a process "
+              "share "
+              "its sockets; shm: shared memory, clients "
               "of this machine only, by the port; mpi: all ranks of an mpirun are nodes, with "
               "clients by TCP or UDP (docs/cluster.md)")
       .check(one_of(transport_names()))

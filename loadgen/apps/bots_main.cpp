@@ -39,7 +39,7 @@ struct Options {
               players = "random", scene = "crowd", transport = "tcp";
   std::string key_file, federation_file;
   bool declares_regions = true, extrapolates = true;
-  std::uint32_t count = 1, first = 0;
+  std::uint32_t count = 1, first = 0, bundles = 1;
   std::uint64_t seed = 1;
   double view_fraction = 0.05, view_area = 0.0, view_margin = 0.3, start_s = 0.0, duration_s = 10.0,
          warm_up_s = 0.0, patience_s = 30.0;
@@ -86,8 +86,14 @@ void add_options(game::Flags& flags, Options& options) {
                game::exit_status_help);
   flags.name("rink bots");
   flags.option("--connect", options.connect, "server, as ADDRESS:PORT").shows_default();
-  flags.option("--transport", options.transport, "tcp, udp or shm: the same as the server's")
+  flags
+      .option("--transport", options.transport, "tcp, udp, shm or bundle: the same as the server's")
       .check(one_of({rti::socket_transport_names.begin(), rti::socket_transport_names.end()}))
+      .shows_default();
+  flags
+      .option("--bundle", options.bundles,
+              "sockets that the bots share by turns, with --transport bundle, which it implies")
+      .check(game::number_from(1, game::bats_max))
       .shows_default();
   flags.option("--key-file", options.key_file, "the server's key file, if it asks for one")
       .check(existing_file());
@@ -224,6 +230,25 @@ rti::FederationFile federation_of(const Options& options) {
   return file;
 }
 
+void bundle_where_asked(const game::Flags& flags, Options& options) {
+  if (!flags.is_given("--bundle")) return;
+  if (flags.is_given("--transport") && options.transport != "bundle")
+    throw std::runtime_error("--bundle: bots share sockets with --transport bundle alone, not " +
+                             options.transport);
+  options.transport = "bundle";
+}
+
+/// Of a bundle, the number that bots share; else one for each, and a second for its datagrams.
+std::uint32_t sockets_of(const Options& options) {
+  if (options.transport == "bundle") return std::min(options.count, options.bundles);
+  return (options.transport == "udp" ? 2u : 1u) * options.count;
+}
+
+loadgen::Crowd::Totals totals_of(const Options& options, const rti::SocketTransport& transport) {
+  if (options.transport != "bundle") return nullptr;
+  return [&transport] { return transport.totals(); };
+}
+
 game::ExitStatus play(const Options& options) {
   const rti::FederationFile file = federation_of(options);
   const auto& node = file.nodes.front();
@@ -231,8 +256,8 @@ game::ExitStatus play(const Options& options) {
   game::require_writable("--evidence", options.trace);
   const rti::Fom fom = game::load_rink_fom(file.fom);
   const std::vector<game::InputEvent> plan = plan_of(options);
-  rti::ensure_file_limit((options.transport == "udp" ? 2u : 1u) * options.count + 64u);
-  rti::SocketTransport transport(options.transport);
+  rti::ensure_file_limit(sockets_of(options) + 64u);
+  rti::SocketTransport transport(options.transport, options.bundles);
   const loadgen::BotCrowdSettings settings{.federation = file.federation,
                                            .first = options.first,
                                            .count = options.count,
@@ -245,7 +270,8 @@ game::ExitStatus play(const Options& options) {
                                            .start_s = options.start_s,
                                            .warm_up_s = options.start_s + options.warm_up_s,
                                            .duration_s = options.start_s + options.duration_s,
-                                           .players = players_of(options)};
+                                           .players = players_of(options),
+                                           .totals = totals_of(options, transport)};
   rti::StagedTransport gate(transport.get());
   game::add_gate(
       gate,
@@ -293,7 +319,11 @@ int main(int count, char** words) {
   flags.version(game::version_line("rink-bots"));
   Options options;
   add_options(flags, options);
-  return game::run_command(
-      flags, count, words,
-      {.run = [&] { return static_cast<int>(play(options)); }, .status_of = status_of});
+  return game::run_command(flags, count, words,
+                           {.run =
+                                [&] {
+                                  bundle_where_asked(flags, options);
+                                  return static_cast<int>(play(options));
+                                },
+                            .status_of = status_of});
 }

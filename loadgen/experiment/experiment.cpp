@@ -15,6 +15,8 @@ const char* to_string(TransportKind kind) {
       return "udp";
     case TransportKind::shared_memory:
       return "shm";
+    case TransportKind::bundle:
+      return "bundle";
     case TransportKind::virtual_time:
       return "virtual";
   }

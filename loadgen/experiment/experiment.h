@@ -48,7 +48,7 @@ enum class Design { matrix, one_at_a_time };
 
 /// `tcp`, `udp` beside it, `shared_memory`: a server process and a bots process of this machine.
 /// `virtual_time`: both in this process, over a modelled network and under a virtual clock.
-enum class TransportKind { tcp, udp, shared_memory, virtual_time };
+enum class TransportKind { tcp, udp, shared_memory, bundle, virtual_time };
 const char* to_string(TransportKind kind);  ///< as experiments name it
 
 /// The definition of true relevance to a player; h is half the view's side. `rectangle`: an entity
@@ -118,6 +118,7 @@ struct Experiment {
       bats{0};             ///< number on the scene's own field; 0: the scene's number
   double view_area = 0.0;  ///< of a client's view [m^2], for any field; 0: view_fraction decides
   TransportKind transport = TransportKind::tcp;
+  std::uint32_t bundles = 1;  ///< sockets that the clients share where `transport` is a bundle
   double delay_ms =
       10.0;  ///< one way, in virtual time; 0 to 10,000; with a network the greater of its latencies
   rti::NetworkConditions network;  ///< in virtual time; partitions count from the run's start.

@@ -81,7 +81,12 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
                                {{"tcp", TransportKind::tcp},
                                 {"udp", TransportKind::udp},
                                 {"shm", TransportKind::shared_memory},
+                                {"bundle", TransportKind::bundle},
                                 {"virtual", TransportKind::virtual_time}});
+  if (result.transport != TransportKind::bundle)
+    reader.refuse_idle("bundles", "clients share sockets under transport = \"bundle\" alone");
+  if (const auto bundles = reader.whole_number("bundles", 1, 10'000))
+    result.bundles = static_cast<std::uint32_t>(*bundles);
   reader.choice<Relevance>("relevance", result.relevance,
                            {{"rectangle", Relevance::rectangle},
                             {"disc", Relevance::disc},
@@ -216,6 +221,8 @@ void expect_what_peers_can(const Experiment& experiment, const std::string& file
   if (experiment.transport == TransportKind::udp)
     refuse(
         "needs transport = \"tcp\", \"shm\" or \"virtual\", not \"udp\": peers send no datagrams");
+  if (experiment.transport == TransportKind::bundle)
+    refuse("needs a socket for each peer: expected transport = \"tcp\", \"shm\" or \"virtual\"");
   for (const std::uint32_t count : experiment.clients)
     if (!is_virtual && (count < 2 || count > game::peers_max))
       refuse("over sockets is of 2 to " + std::to_string(game::peers_max) +

@@ -292,7 +292,8 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
 void judge(RunRecord& record, const nlohmann::json& server_report,
            const nlohmann::json& bots_report) {
   std::vector<std::string> complaints;
-  const bool has_kernel_counts = record.transport == "tcp" || record.transport == "udp";
+  const bool has_kernel_counts =
+      record.transport == "tcp" || record.transport == "udp" || record.transport == "bundle";
   const bool may_lack_figures =
       !has_kernel_counts || record.cell.mode == peer_mode ||
       record.cell.parameters.nodes > 1;  // nobody plays, filters and sends for all

@@ -174,6 +174,7 @@ std::string block_title(const std::vector<SummaryRow>& rows, const SummaryRow& r
          (run.transport == "tcp" && !row.part.empty() ? ", processes over TCP without delay"
           : run.transport == "udp"                    ? ", datagrams"
           : run.transport == "shm"                    ? ", shared memory"
+          : run.transport == "bundle"                 ? ", clients share sockets"
                                                       : "") +
          (run.transport == "virtual" ? formatted(", virtual time with %g ms of delay", run.delay_ms)
                                      : "") +

@@ -60,6 +60,7 @@ std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell
     arguments.insert(arguments.end(), {flag, value});
   };
   add("--transport", to_string(experiment.transport));
+  if (experiment.bundles > 1) add("--bundle", std::to_string(experiment.bundles));
   add("--count", std::to_string(cell.clients));
   add("--seed", std::to_string(cell.seed));
   if (experiment.keys == KeySource::live && experiment.players != "random" &&

@@ -39,6 +39,7 @@ ConnectionId BundledTransport::add(ConnectionId trunk_id) {
   channels_.push_back(
       {.trunk = trunk_id, .number = static_cast<std::uint32_t>(carrying.channels.size())});
   carrying.channels.push_back(connection);
+  ++carrying.channels_left;
   return connection;
 }
 
@@ -87,6 +88,12 @@ void BundledTransport::send_gathered(ConnectionId trunk_id) {
   const Bytes bytes = gathered;
   carrier_.send(trunk_id, std::span(&bytes, 1));
   gathered.clear();
+  const std::size_t channels = std::max<std::size_t>(1, trunks_[trunk_id].channels_left);
+  if (carrier_.queued_bytes(trunk_id) / channels <= queue_max) return;
+  carrier_.close(trunk_id);
+  end_all(trunk_id, CloseReason::queue_full,
+          "its bundle did not read: more than " + std::to_string(queue_max) +
+              " bytes waited for each of " + std::to_string(channels));
 }
 
 void BundledTransport::push() {
@@ -104,13 +111,16 @@ void BundledTransport::close(ConnectionId connection) {
 void BundledTransport::end(ConnectionId connection, CloseReason reason, const std::string& detail) {
   assert(!channels_[connection].is_closed);  // its end is reported once
   channels_[connection].is_closed = true;
+  assert(trunks_[channels_[connection].trunk].channels_left > 0);
+  --trunks_[channels_[connection].trunk].channels_left;
   news_.push_back({connection, false, reason, detail});
 }
 
 std::size_t BundledTransport::queued_bytes(ConnectionId connection) const {
   if (connection >= channels_.size() || channels_[connection].is_closed) return 0;
   const ConnectionId trunk_id = channels_[connection].trunk;
-  return carrier_.queued_bytes(trunk_id) + trunks_[trunk_id].gathered.size();
+  const Trunk& trunk = trunks_[trunk_id];
+  return (carrier_.queued_bytes(trunk_id) + trunk.gathered.size()) / trunk.channels_left;
 }
 
 TransportCounters BundledTransport::counters(ConnectionId connection) const {
@@ -127,6 +137,9 @@ void BundledTransport::check() const {
     assert(!each.is_closed || each.gathered.empty());
     assert(each.header_size < sizeof each.header);
     assert(each.left == 0 || each.number < each.channels.size());
+    assert(each.channels_left ==
+           static_cast<std::size_t>(std::ranges::count_if(
+               each.channels, [this](ConnectionId id) { return !channels_[id].is_closed; })));
   }
   for (ConnectionId connection = 0; connection < channels_.size(); ++connection) {
     [[maybe_unused]] const Channel& channel = channels_[connection];
@@ -226,13 +239,18 @@ bool BundledTransport::handle_header(ConnectionId trunk_id) {
 
 void BundledTransport::on_close(ConnectionId trunk_id, CloseReason reason,
                                 const std::string& detail) {
+  end_all(trunk_id, reason, detail);
+  report();
+}
+
+void BundledTransport::end_all(ConnectionId trunk_id, CloseReason reason,
+                               const std::string& detail) {
   Trunk& closed = trunk(trunk_id);
   if (std::exchange(closed.is_closed, true)) return;
   std::erase(full_, trunk_id);
   closed.gathered = {};
   for (const ConnectionId connection : closed.channels)
     if (find(connection) != nullptr) end(connection, reason, detail);
-  report();
 }
 
 }  // namespace rink::rti

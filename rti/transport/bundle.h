@@ -12,26 +12,36 @@ namespace rink::rti {
 /// A transport over a transport; both ends must have one. What is sent is gathered for each trunk
 /// until the next `push` or `poll`, then goes as one write, so the peer gets a process's federates
 /// with one read: a lockstep of n federates costs two system calls at either end instead of 4 n.
-/// The connections share the trunk's queue and its end: a process that does not read is one slow
-/// reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a size of
-/// `opens` or `closes` is all of its record. A peer that sends anything else loses its trunk.
+/// The connections share the trunk's queue in even parts, and its end: a process that does not read
+/// is one slow reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a
+/// size of `opens` or `closes` is all of its record. A peer that sends anything else loses its
+/// trunk.
 class BundledTransport final : public Transport, private TransportListener {
  public:
   static constexpr std::uint32_t opens = 0xffffffff, closes = 0xfffffffe;
   static constexpr std::size_t channel_max = 65'536;  ///< that a peer may open on one trunk
   static constexpr std::size_t gathered_max =
       1u << 16;  ///< bytes gathered before they are sent at once
+  static constexpr std::size_t queue_max =
+      1u << 20;  ///< bytes queued for each open channel of a trunk whose peer doesn't read, before
+                 ///< the trunk is closed
 
-  /// `carrier` must outlive it, and is polled by it alone.
+  /// `carrier` must outlive it, and is polled by it alone. Its own limit of a queue should be that
+  /// of many channels.
   explicit BundledTransport(Transport& carrier) : carrier_(carrier) {}
 
   /// A connection over `trunk`, one of the carrier's, which may still be opening; `on_open` follows
   /// in a poll, or `on_close` with the trunk's reason.
   ConnectionId connect(ConnectionId trunk);
+  /// Of a trunk that this end connected.
+  bool is_closed(ConnectionId trunk) const {
+    return trunk < trunks_.size() && trunks_[trunk].is_closed;
+  }
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  /// The connection's part of its trunk's.
   std::size_t queued_bytes(ConnectionId connection) const override;
   /// Of the connection's own payload, without the records' headers; the kernel knows trunks only.
   TransportCounters counters(ConnectionId connection) const override;
@@ -51,6 +61,7 @@ class BundledTransport final : public Transport, private TransportListener {
     bool is_open = false, is_closed = false,
          is_ours = false;                ///< this end connected it, and numbers and opens channels
     std::vector<ConnectionId> channels;  ///< by number
+    std::size_t channels_left = 0;       ///< of these, not closed yet
     std::vector<std::byte> gathered;
     std::byte header[8] = {};
     std::size_t header_size = 0;         ///< bytes of it received
@@ -75,6 +86,7 @@ class BundledTransport final : public Transport, private TransportListener {
   /// False if the header is invalid.
   bool handle_header(ConnectionId trunk_id);
   void end(ConnectionId connection, CloseReason reason, const std::string& detail);
+  void end_all(ConnectionId trunk_id, CloseReason reason, const std::string& detail);
   void report();
 
   Transport& carrier_;

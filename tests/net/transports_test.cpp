@@ -249,6 +249,7 @@ TEST_P(EveryTransportsGame, EndsInTheSameStateAndLooksTheSameToEveryPlayer) {
   const std::vector<std::pair<std::string, Carrier>> others{{"tcp", sockets("tcp")},
                                                             {"udp", sockets("udp")},
                                                             {"shared memory", sockets("shm")},
+                                                            {"bundle", sockets("bundle")},
                                                             {"virtual network", virtual_network()}};
   for (const auto& [name, carrier] : others) {
     SCOPED_TRACE(name);

@@ -22,7 +22,7 @@ BotCrowd::BotCrowd(const rti::Fom& fom, rti::Transport& transport, const BotCrow
       settings_(settings),
       now_s_(std::move(now_s)),
       meter_(settings.warm_up_s, settings.duration_s),
-      crowd_(transport) {
+      crowd_(transport, settings.totals) {
   for (std::uint32_t number = 0; number < settings.count; ++number) {
     Bot& bot = crowd_.add(
         std::make_unique<Bot>(fom, model_, client_settings(number), meter_.measurements()));

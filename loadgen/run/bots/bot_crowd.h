@@ -34,6 +34,7 @@ struct BotCrowdSettings {
   double duration_s = 10.0;  ///< simulated time at which the bots stop
   LivePlayers players{};     ///< unless they are random, they decide for themselves and the plan is
                              ///< not looked at
+  Crowd::Totals totals{};    ///< of connections that share sockets; null: each has its own
 };
 
 /// Drives the bots: connects them, presses their keys when due, and measures. Reads no clock

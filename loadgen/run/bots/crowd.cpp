@@ -68,9 +68,7 @@ std::vector<std::uint64_t> Crowd::received_by_bot() const {
 
 CrowdTraffic Crowd::traffic() const {
   CrowdTraffic sum;
-  for (const std::unique_ptr<Bot>& bot : bots_) {
-    const rti::TransportCounters counters =
-        rti::with_datagrams(transport_.counters(bot->connection));
+  const auto add = [&sum](const rti::TransportCounters& counters) {
     sum.bytes_sent += counters.bytes_sent;
     sum.bytes_received += counters.bytes_received;
     sum.segments_sent += counters.segments_sent;
@@ -78,6 +76,10 @@ CrowdTraffic Crowd::traffic() const {
     sum.kernel_segments_sent += counters.kernel_segments_sent.value_or(counters.segments_sent);
     sum.kernel_bytes_sent += counters.kernel_bytes_sent.value_or(counters.bytes_sent);
     sum.kernel_bytes_received += counters.kernel_bytes_received.value_or(counters.bytes_received);
+  };
+  if (totals_) add(totals_());
+  for (const std::unique_ptr<Bot>& bot : bots_) {
+    if (!totals_) add(rti::with_datagrams(transport_.counters(bot->connection)));
     sum.updates_received += bot->client.replicas().counters().updates;
   }
   return sum;

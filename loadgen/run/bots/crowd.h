@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/net/client/client.h"
@@ -40,8 +41,13 @@ class Crowd {
  public:
   using Connect = std::function<rti::ConnectionId(std::uint32_t bot)>;
 
-  /// `transport` must outlive it.
-  explicit Crowd(rti::Transport& transport) : transport_(transport) {}
+  /// What all connections together have carried.
+  using Totals = std::function<rti::TransportCounters()>;
+
+  /// `transport` must outlive it. `totals` counts where connections share a socket, of which none
+  /// knows the segments; null: each has its own.
+  explicit Crowd(rti::Transport& transport, Totals totals = nullptr)
+      : transport_(transport), totals_(std::move(totals)) {}
 
   /// Adds a bot, whose address stays valid.
   Bot& add(std::unique_ptr<Bot> bot);
@@ -80,6 +86,7 @@ class Crowd {
   std::vector<std::uint64_t> received_by_bot() const;
 
   rti::Transport& transport_;
+  Totals totals_;
   std::vector<std::unique_ptr<Bot>> bots_;
   std::vector<std::uint32_t> bot_of_connection_;
   std::uint32_t lost_ = 0;

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t tcp_segment_size =
     1448;                              ///< payload of an Ethernet frame with TCP time stamps
 constexpr std::size_t part_max = 256;  ///< of one write; more are taken in turns
+constexpr std::size_t cut_off_min = 512 * 1024;  ///< sent bytes of a queue, before they are cut off
 
 }  // namespace
 
@@ -116,7 +117,7 @@ void TcpTransport::drain(Peer& peer) {
   if (peer.queue_from < peer.queue.size()) {
     // Bytes that were sent are cut off now and then, so that a slow but steady reader does not make
     // the queue's memory grow.
-    if (peer.queue_from > settings_.queue_max / 2) {
+    if (peer.queue_from > std::max(cut_off_min, peer.queue.size() / 2)) {
       peer.queue.erase(peer.queue.begin(),
                        peer.queue.begin() + static_cast<std::ptrdiff_t>(peer.queue_from));
       peer.queue_from = 0;

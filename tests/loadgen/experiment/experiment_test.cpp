@@ -96,7 +96,11 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "view_fraction = [0.1, 0.2]\nview_area = 4"),
               AllOf(StartsWith("dir/x.toml:4: view_area = 4"), HasSubstr("single view_fraction")));
   EXPECT_THAT(complaint_about(minimal + "sweep_ticks = -1"), HasSubstr("from 0 to 1000"));
-  EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, virtual"));
+  EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, bundle, virtual"));
+  EXPECT_THAT(complaint_about(minimal + "bundles = 2"),
+              AllOf(StartsWith("dir/x.toml:3: bundles = 2"), HasSubstr("transport = \"bundle\"")));
+  EXPECT_THAT(complaint_about(minimal + "transport = 'bundle'\nbundles = 0"),
+              AllOf(StartsWith("dir/x.toml:4: bundles = 0"), HasSubstr("from 1 to 10000")));
   EXPECT_THAT(complaint_about(minimal + "delay_ms = -1"), HasSubstr("0 to 10000"));
   EXPECT_THAT(complaint_about(minimal + "relevance = 'square'"),
               HasSubstr("rectangle, disc, contact, filter"));

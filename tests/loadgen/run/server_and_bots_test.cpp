@@ -80,6 +80,37 @@ TEST_F(ServerAndBots, PlayWithTheSameKeyFileAndNotWithAnother) {
   EXPECT_NE(another.bots, 0);
 }
 
+/// All bytes of twelve bots leave by three sockets, in fewer segments, and both ends count the
+/// same.
+TEST_F(ServerAndBots, ShareSocketsAndCountWhatTheseCarry) {
+  const Played apart = play({}, {}), shared = play({"--transport", "bundle"}, {"--bundle", "3"});
+  ASSERT_EQ(apart.server, 0);
+  ASSERT_EQ(shared.server, 0);
+  ASSERT_EQ(shared.bots, 0);
+  EXPECT_EQ(shared.server_report["lost_federates"], 0);
+  EXPECT_EQ(shared.bots_report["clients"], 12);
+  for (const char* kind : {"total_bytes", "kernel_bytes"}) {
+    const auto of = [&](const nlohmann::json& report, const char* way) {
+      return report[std::string(kind) + way].get<double>();
+    };
+    EXPECT_NEAR(of(shared.server_report, "_sent"), of(shared.bots_report, "_received"), 2000.0);
+    EXPECT_NEAR(of(shared.server_report, "_received"), of(shared.bots_report, "_sent"), 2000.0);
+  }
+  EXPECT_LT(shared.server_report["kernel_segments_sent"].get<double>(),
+            0.6 * apart.server_report["kernel_segments_sent"].get<double>());
+}
+
+TEST_F(ServerAndBots, BotsThatShareSocketsOfAnotherTransportAreRefused) {
+  game::Process bots(test::binary_folder() + "/bin/rink-bots",
+                     {"--bundle", "2", "--transport", "udp"}, {});
+  while (!bots.ending()) bots.attend(5ms);
+  EXPECT_NE(bots.ending()->exit_status, 0);
+  EXPECT_NE(bots.stderr_tail().find(
+                "--bundle: bots share sockets with --transport bundle alone, not udp"),
+            std::string::npos)
+      << bots.stderr_tail();
+}
+
 /// Spread over half a tick of 50 ms, the writes of one instant are those of one of 16 phases, and
 /// on average they leave a quarter of a tick later.
 TEST_F(ServerAndBots, ASpreadTickLeavesInSmallBurstsAndArrivesLater) {

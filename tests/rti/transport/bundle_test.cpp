@@ -110,5 +110,39 @@ TEST(Bundle, WhatIsGatheredGoesAtOnceWhenItIsTooMuch) {
       << "the opening, and two records with their heads";
 }
 
+TEST(Bundle, WhatWaitsOnATrunkIsItsOpenChannelsInEvenParts) {
+  BundleScene scene;
+  const ConnectionId first = scene.bundle.connect(trunk), second = scene.bundle.connect(trunk),
+                     third = scene.bundle.connect(trunk);
+  scene.poll();
+  scene.carrier.queued = 600;
+  for (const ConnectionId each : {first, second, third})
+    EXPECT_EQ(scene.bundle.queued_bytes(each), 200u);
+  scene.bundle.close(third);
+  scene.poll();
+  EXPECT_EQ(scene.bundle.queued_bytes(first), 300u);
+  EXPECT_EQ(scene.bundle.queued_bytes(third), 0u);
+}
+
+TEST(Bundle, ATrunkThatIsNotReadIsClosedForWhatWaitsForEachOfItsChannels) {
+  BundleScene scene;
+  const ConnectionId first = scene.bundle.connect(trunk), second = scene.bundle.connect(trunk);
+  scene.poll();
+  const std::vector<std::byte> some(10);
+  const Bytes part = some;
+  scene.carrier.queued = 2 * BundledTransport::queue_max;
+  scene.bundle.send(first, std::span(&part, 1));
+  scene.poll();
+  EXPECT_FALSE(scene.has_lost_its_trunk());
+  scene.carrier.queued += 2;
+  scene.bundle.send(second, std::span(&part, 1));
+  scene.poll();
+  EXPECT_TRUE(scene.has_lost_its_trunk());
+  EXPECT_EQ(scene.ear.closed[first],
+            "its bundle did not read: more than 1048576 bytes waited for each of 2");
+  EXPECT_EQ(scene.ear.closed[first], scene.ear.closed[second]);
+  EXPECT_TRUE(scene.bundle.is_closed(trunk));
+}
+
 }  // namespace
 }  // namespace rink::rti::testing

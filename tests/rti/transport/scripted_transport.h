@@ -40,7 +40,9 @@ class ScriptedTransport final : public Transport {
     closing_.push_back(id);
   }
   TransportCounters counters(ConnectionId) const override { return {}; }
+  std::size_t queued_bytes(ConnectionId) const override { return queued; }
 
+  std::size_t queued = 0;  ///< of every connection
   std::map<ConnectionId, std::vector<std::byte>> sent;
   std::vector<ConnectionId> closed;
 
