@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "im/basics/checked.h"
-
-#include "rti/wire/stream.h"
+#include "im/basics/varint.h"
 
 namespace rink::rti {
 
 namespace {
+
+constexpr std::size_t size_max = 0xfffffffe;  ///< of one record
 
 void append(std::vector<std::byte>& to, Bytes bytes) {
   if (bytes.empty()) return;
@@ -57,25 +58,25 @@ ConnectionId BundledTransport::connect(ConnectionId trunk_id) {
 }
 
 void BundledTransport::write_header(ConnectionId trunk_id, std::uint32_t number,
-                                    std::uint32_t size) {
+                                    std::uint32_t coded_size) {
   assert(trunk_id < trunks_.size() && !trunks_[trunk_id].is_closed);
   assert(number < trunks_[trunk_id].channels.size());
   std::vector<std::byte>& gathered = trunks_[trunk_id].gathered;
   if (gathered.empty()) full_.push_back(trunk_id);
-  Writer writer(gathered);
-  writer.number(number);
-  writer.number(size);
+  const std::size_t before = gathered.size();
+  gathered.resize(before + varint_size(number) + varint_size(coded_size));
+  put_varint(put_varint(&gathered[before], number), coded_size);
 }
 
 void BundledTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   Channel* channel = find(connection);
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
-  if (channel == nullptr || size == 0 || size >= closes) return;
+  if (channel == nullptr || size == 0 || size > size_max) return;
   ++channel->counters.writes;
   channel->counters.segments_sent += (size + 1447) / 1448;
   channel->counters.bytes_sent += size;
-  write_header(channel->trunk, channel->number, static_cast<std::uint32_t>(size));
+  write_header(channel->trunk, channel->number, static_cast<std::uint32_t>(size + 1));
   Trunk& carrying = trunks_[channel->trunk];
   for (const Bytes part : parts) append(carrying.gathered, part);
   if (carrying.gathered.size() >= gathered_max) send_gathered(channel->trunk);
@@ -190,13 +191,9 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
   while (!bytes.empty() && !trunks_[trunk_id].is_closed) {
     Trunk& trunk = trunks_[trunk_id];
     if (trunk.left == 0) {
-      const std::size_t taken = std::min(sizeof trunk.header - trunk.header_size, bytes.size());
-      std::memcpy(trunk.header + trunk.header_size, bytes.data(), taken);
-      trunk.header_size += taken;
-      bytes = bytes.subspan(taken);
-      if (trunk.header_size < sizeof trunk.header) return;
-      trunk.header_size = 0;
-      if (!handle_header(trunk_id)) {
+      const std::byte byte = bytes.front();
+      bytes = bytes.subspan(1);
+      if (!take_of_header(trunk_id, byte)) {
         carrier_.close(trunk_id);
         return on_close(trunk_id, CloseReason::failed, "sent bytes that are no record of a bundle");
       }
@@ -214,12 +211,22 @@ void BundledTransport::on_bytes(ConnectionId trunk_id, Bytes bytes) {
   }
 }
 
+bool BundledTransport::take_of_header(ConnectionId trunk_id, std::byte byte) {
+  Trunk& trunk = trunks_[trunk_id];
+  trunk.header[trunk.header_size++] = byte;
+  if ((byte & std::byte{0x80}) == std::byte{0}) ++trunk.numbers_read;
+  if (trunk.numbers_read == 2) return handle_header(trunk_id);
+  return trunk.header_size < sizeof trunk.header;
+}
+
 bool BundledTransport::handle_header(ConnectionId trunk_id) {
   Trunk& trunk = trunks_[trunk_id];
-  std::uint32_t number = 0, size = 0;
-  Reader header(trunk.header);
-  header.number(number);
-  header.number(size);
+  const Bytes header = Bytes(trunk.header).first(trunk.header_size);
+  trunk.header_size = trunk.numbers_read = 0;
+  std::uint64_t number = 0, size = 0;
+  const std::size_t number_size = get_varint(header, number);
+  if (number_size == 0 || get_varint(header.subspan(number_size), size) == 0) return false;
+  if (size > size_max + 1) return false;
   if (size == opens) {
     if (trunk.is_ours || number != trunk.channels.size() || number >= channel_max) return false;
     const ConnectionId connection = add(trunk_id);
@@ -232,8 +239,8 @@ bool BundledTransport::handle_header(ConnectionId trunk_id) {
       end(trunk.channels[number], CloseReason::closed_by_peer, "closed by peer");
     return report(), true;
   }
-  trunk.number = number;
-  trunk.left = size;
+  trunk.number = static_cast<std::uint32_t>(number);
+  trunk.left = static_cast<std::uint32_t>(size - 1);
   return true;
 }
 

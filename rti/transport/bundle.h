@@ -13,12 +13,13 @@ namespace rink::rti {
 /// until the next `push` or `poll`, then goes as one write, so the peer gets a process's federates
 /// with one read: a lockstep of n federates costs two system calls at either end instead of 4 n.
 /// The connections share the trunk's queue in even parts, and its end: a process that does not read
-/// is one slow reader. Bytes on a trunk are records: channel u32, size u32, then so many bytes; a
-/// size of `opens` or `closes` is all of its record. A peer that sends anything else loses its
-/// trunk.
+/// is one slow reader. Bytes on a trunk are records: channel and size, two varints, then so many
+/// bytes; `opens` or `closes` for a size is all of its record. A peer that sends anything else
+/// loses its trunk.
 class BundledTransport final : public Transport, private TransportListener {
  public:
-  static constexpr std::uint32_t opens = 0xffffffff, closes = 0xfffffffe;
+  static constexpr std::uint32_t opens = 0,
+                                 closes = 1;          ///< n bytes are written as n + 1
   static constexpr std::size_t channel_max = 65'536;  ///< that a peer may open on one trunk
   static constexpr std::size_t gathered_max =
       1u << 16;  ///< bytes gathered before they are sent at once
@@ -51,6 +52,7 @@ class BundledTransport final : public Transport, private TransportListener {
   void check() const;
 
  private:
+  static constexpr std::size_t head_number_max = 5;  ///< bytes of a channel's number, of a size
   struct Channel {
     ConnectionId trunk = 0;
     std::uint32_t number = 0;  ///< on its trunk
@@ -63,9 +65,9 @@ class BundledTransport final : public Transport, private TransportListener {
     std::vector<ConnectionId> channels;  ///< by number
     std::size_t channels_left = 0;       ///< of these, not closed yet
     std::vector<std::byte> gathered;
-    std::byte header[8] = {};
-    std::size_t header_size = 0;         ///< bytes of it received
-    std::uint32_t number = 0, left = 0;  ///< of the present record
+    std::byte header[2 * head_number_max] = {};
+    std::size_t header_size = 0, numbers_read = 0;  ///< bytes and whole numbers of it received
+    std::uint32_t number = 0, left = 0;             ///< of the present record
   };
   struct News {
     ConnectionId connection;
@@ -81,7 +83,9 @@ class BundledTransport final : public Transport, private TransportListener {
   Trunk& trunk(ConnectionId id);
   Channel* find(ConnectionId connection);
   ConnectionId add(ConnectionId trunk_id);
-  void write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t size);
+  void write_header(ConnectionId trunk_id, std::uint32_t number, std::uint32_t coded_size);
+  /// Takes a byte of a header; false if none has it there.
+  bool take_of_header(ConnectionId trunk_id, std::byte byte);
   void send_gathered(ConnectionId trunk_id);
   /// False if the header is invalid.
   bool handle_header(ConnectionId trunk_id);

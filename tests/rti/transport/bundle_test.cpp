@@ -37,8 +37,8 @@ struct BundleScene {
   void records(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& heads) {
     std::vector<std::byte> bytes;
     for (const auto& [channel, size] : heads) {
-      const auto head = values_of(channel, size);
-      bytes.insert(bytes.end(), head.begin(), head.end());
+      std::byte head[2 * varint_size_max];
+      bytes.insert(bytes.end(), head, put_varint(put_varint(head, channel), size));
     }
     carrier.says(trunk, bytes);
     poll();
@@ -87,6 +87,10 @@ TEST(Bundle, ARecordThatIsNoneCostsTheTrunk) {
   EXPECT_TRUE(costs_it({{0, opens}, {0, opens}})) << "in use";
   EXPECT_TRUE(costs_it({{0, 5}})) << "bytes for a channel that was never opened";
   EXPECT_TRUE(costs_it({{0, opens}, {1, closes}}));
+  BundleScene scene;
+  scene.carrier.says(trunk, std::vector(10, std::byte{0x81}));
+  scene.poll();
+  EXPECT_TRUE(scene.has_lost_its_trunk()) << "a number without an end";
 }
 
 TEST(Bundle, ChannelsOfOurOwnTrunkAreOpenedByUsAlone) {
@@ -106,7 +110,7 @@ TEST(Bundle, WhatIsGatheredGoesAtOnceWhenItIsTooMuch) {
   scene.bundle.send(ours, std::span(&part, 1));
   EXPECT_TRUE(scene.carrier.sent.empty());
   scene.bundle.send(ours, std::span(&part, 1));
-  EXPECT_EQ(scene.carrier.sent[trunk].size(), 8 + 2 * (8 + half.size()))
+  EXPECT_EQ(scene.carrier.sent[trunk].size(), 2 + 2 * (1 + 3 + half.size()))
       << "the opening, and two records with their heads";
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Ear final : TransportListener {
+struct SocketEar final : TransportListener {
   std::set<ConnectionId> open;
   std::map<ConnectionId, std::string> heard, closed;
   void on_open(ConnectionId id) override { open.insert(id); }
@@ -48,7 +48,7 @@ struct Ends {
   std::optional<SocketTransport> server;
   std::uint16_t port;
   SocketTransport client;
-  Ear at_server, at_client;
+  SocketEar at_server, at_client;
 };
 
 TEST(SocketTransport, ConnectionsOfABundleShareItsSocketsByTurns) {
@@ -63,9 +63,9 @@ TEST(SocketTransport, ConnectionsOfABundleShareItsSocketsByTurns) {
   std::set<std::string> heard;
   for (const auto& [connection, text] : ends.at_server.heard) heard.insert(text);
   EXPECT_EQ(heard, (std::set<std::string>{"a", "b", "c", "d", "e"}));
-  // A record has a head of 8 bytes, and so has an opening.
-  EXPECT_EQ(ends.client.totals().bytes_sent, 5u * (8 + 8 + 1));
-  EXPECT_EQ(ends.server->totals().bytes_received, 5u * (8 + 8 + 1));
+  // A record has a head of 2 bytes, and so has an opening.
+  EXPECT_EQ(ends.client.totals().bytes_sent, 5u * (2 + 2 + 1));
+  EXPECT_EQ(ends.server->totals().bytes_received, 5u * (2 + 2 + 1));
   EXPECT_LE(ends.client.totals().writes, 4u) << "two for each socket";
 }
 
