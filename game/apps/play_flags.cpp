@@ -19,7 +19,7 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
   const auto peer = flags
                         .option("--peer", options.peer,
                                 "be one of the peers that share a game: HOST:PORT of any "
-                                "running one, a rink play or a rink peer")
+                                "running one, a rink play or, unless it is a match, a rink peer")
                         .value_name("HOST:PORT")
                         .group(group);
   const auto listen = flags
@@ -35,17 +35,18 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
   };
   first(flags
             .option("--peers", terms.peer_count,
-                    "number of peers, with those that only compute or play bots; set by the first "
-                    "peer")
+                    "number of peers, with those that only compute, watch or play bots; set by the "
+                    "first peer")
             .check(whole_number_from(2, game::peers_max)));
   first(flags
             .option("--until", terms.until,
-                    "simulated time at which to stop [s]; set by the first peer")
+                    "simulated time at which to stop [s]; set by the first peer; not of a match, "
+                    "which is played until it is won")
             .check(game::number_from(1e-6, game::seconds_max)));
   first(flags
             .option("--window", terms.window,
                     "simulated time from one agreement to the next [s]: a key takes effect one to "
-                    "two windows later; set by the first peer")
+                    "two windows later; of a match, by default 1/60; set by the first peer")
             .check(game::number_from(1e-3, 1.0)));
   first(
       flags
@@ -78,10 +79,16 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
   flags
       .option("--record", options.sharing.record,
               "write the keys of all peers and the final hash to this key log; rink simulate "
-              "--keys plays the same game")
+              "--keys plays the same game; matches are recorded in the folder --records instead")
       .value_name("FILE")
       .group(group);
   flags.option("--patience", options.sharing.patience_s, "how long another peer may be silent [s]")
+      .check(game::number_from(0.1, game::seconds_max))
+      .group(group)
+      .shows_default();
+  flags
+      .option("--wait", options.sharing.gathering_s,
+              "how long the first peers wait until all have come [s]")
       .check(game::number_from(0.1, game::seconds_max))
       .group(group)
       .shows_default();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "game/apps/flags.h"
@@ -25,6 +26,7 @@ struct PlayOptions {
   bool is_offscreen = false;
   std::string script, screenshot;
   double at_s = 0.0;
+  std::set<std::string> given{};  ///< of the flags of play among peers, those that were given
 };
 
 void add_options(game::Flags& flags, PlayOptions& options);

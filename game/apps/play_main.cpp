@@ -1,28 +1,17 @@
 // rink play: the window, its clock, and the matches that the player starts.
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 #include <memory>
 #include <thread>
 #include <utility>
 
 #include "game/apps/command.h"
 #include "game/apps/play_flags.h"
-#include "game/control/match_records.h"
-#include "game/match/local_match.h"
-#include "game/match/replay_match.h"
-#include "game/model/scene_file.h"
-#include "game/net/client/joined_match.h"
+#include "game/apps/play_matches.h"
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
-#include "game/net/peer/playing_peer.h"
 #include "game/version/version.h"
 #include "game/view/application.h"
-#include "game/view/host_process.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "game/view/script.h"
@@ -41,145 +30,6 @@ constexpr double offscreen_frame_s = 1.0 / 60.0,
 using game::now_s;
 
 void notify(const std::string& problem) { game::complain(problem); }
-
-std::string bot_kind(const std::string& strength) {
-  return strength == "club" ? "chaser" : "chaser-" + strength;
-}
-
-std::string records_folder(const view::PlayOptions& options) {
-  if (!options.records.empty()) return options.records;
-  if (const char* folder = std::getenv("XDG_DATA_HOME"); folder != nullptr && *folder != '\0')
-    return std::string(folder) + "/rink/matches";
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-    return std::string(home) + "/.local/share/rink/matches";
-  return "matches";
-}
-
-/// The folder of a host's records: one that cannot be written is reported and left out, since the
-/// match matters more.
-std::string host_records(const std::string& folder) {
-  const auto problem = game::MatchRecords(folder).test();
-  if (!problem) return folder;
-  const std::string other = (std::filesystem::temp_directory_path() / "rink-matches").string();
-  notify(*problem + "; they are kept in " + other);
-  return other;
-}
-
-/// A local match whose records are kept, also of one that is abandoned. A record that cannot be
-/// written is reported; the match goes on.
-class RecordedMatch final : public game::MatchSource {
- public:
-  RecordedMatch(const game::Scene& scene, const game::LocalMatchSettings& settings,
-                const std::string& folder)
-      : match_(scene, settings), records_(folder) {}
-  ~RecordedMatch() override {
-    match_.finish();
-    keep();
-  }
-  void advance(double now_s) override {
-    match_.advance(now_s);
-    keep();
-  }
-  const game::MatchSight& sight() const override { return match_.sight(); }
-  std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override {
-    match_.press(hand, key, is_down);
-  }
-  void pause(bool is_wanted) override { match_.pause(is_wanted); }
-  void rematch() override { match_.rematch(); }
-
- private:
-  void keep() {
-    for (const game::KeyLog& log : match_.take_finished()) {
-      if (const auto problem = records_.keep(log)) notify(*problem);
-      match_.set_notice(records_.is_failing() ? "The last match could not be recorded" : "");
-    }
-  }
-  game::LocalMatch match_;
-  game::MatchRecords records_;
-};
-
-/// A match that is hosted and played here: the server starts before the connection to it, and ends
-/// after it.
-class HostedMatch final : public game::MatchSource {
- public:
-  HostedMatch(const std::string& port, const std::string& records, const std::string& key_file)
-      : host_(port, records, key_file), match_("127.0.0.1:" + port, {.name = "host"}, key_file) {}
-  void advance(double now_s) override {
-    match_.advance(now_s);
-    std::cerr << host_.take_words();
-  }
-  const game::MatchSight& sight() const override { return match_.sight(); }
-  std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override {
-    match_.press(hand, key, is_down);
-  }
-  void pause(bool is_wanted) override { match_.pause(is_wanted); }
-  void rematch() override { match_.rematch(); }
-
- private:
-  view::HostProcess host_;
-  game::JoinedMatch match_;
-};
-
-/// A part of a game that peers share, with its messages for the terminal.
-class SharedMatch final : public game::MatchSource {
- public:
-  explicit SharedMatch(const game::PlayingPeerSettings& settings) : peer_(settings, now_s) {}
-  void advance(double now_s) override {
-    peer_.advance(now_s);
-    std::cout << peer_.take_words() << std::flush;
-  }
-  const game::MatchSight& sight() const override { return peer_.sight(); }
-  std::uint32_t hand_count() const override { return peer_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override {
-    peer_.press(hand, key, is_down);
-  }
-  void pause(bool is_wanted) override { peer_.pause(is_wanted); }
-  void rematch() override { peer_.rematch(); }
-
- private:
-  game::PlayingPeer peer_;
-};
-
-game::PlayingPeerSettings peer_settings(const view::PlayOptions& options) {
-  game::PlayingPeerSettings settings = options.sharing;
-  settings.join = options.peer, settings.listen = options.peer_listen;
-  return settings;
-}
-
-std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish,
-                                              const view::PlayOptions& options) {
-  using Kind = MatchWish::Kind;
-  const std::string records = records_folder(options);
-  if (wish.kind == Kind::host)
-    return std::make_unique<HostedMatch>(wish.address, host_records(records), options.key_file);
-  if (wish.kind == Kind::join)
-    return std::make_unique<game::JoinedMatch>(
-        wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())},
-        options.key_file);
-  if (wish.kind == Kind::watch)
-    return std::make_unique<game::JoinedMatch>(
-        wish.address,
-        game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()),
-                                   .only_watches = true},
-        options.key_file);
-  if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
-  if (wish.kind == Kind::peer) return std::make_unique<SharedMatch>(peer_settings(options));
-  const game::Scene scene = game::load_scene("match");
-  game::LocalMatchSettings settings{.seed = options.seed, .scene_text = game::scene_text("match")};
-  if (wish.kind == Kind::bots) {
-    settings.players = {"chaser", "chaser"};
-    settings.times.countdown_s = 0.0;
-    return std::make_unique<game::LocalMatch>(scene, settings);
-  }
-  if (wish.kind == Kind::bot) {
-    settings.players = {game::Playing::hand, bot_kind(wish.strength)};
-    settings.left_name = "You";
-    settings.right_name = "Bot";
-  }
-  return std::make_unique<RecordedMatch>(scene, settings, records);
-}
 
 /// The application with its resources of the process: settings on disk, sound, standard error.
 class Process {
@@ -247,7 +97,9 @@ class Process {
 void Process::open(view::Window* window) {
   interface_ = std::make_unique<view::Interface>();
   view::Surroundings surroundings;
-  surroundings.make_match = [this](const MatchWish& wish) { return make_match(wish, options_); };
+  surroundings.make_match = [this](const MatchWish& wish) {
+    return view::make_match(wish, options_);
+  };
   surroundings.notify = notify;
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();
@@ -387,5 +239,11 @@ int main(int count, char** words) {
       "that ends with an error is reported in the menu and on standard error.");
   return game::run_command(
       flags, count, words,
-      {.run = [&] { return static_cast<int>(play(options)); }, .status_of = status_of});
+      {.run =
+           [&] {
+             for (const char* flag : {"--until", "--window", "--scheme", "--view", "--record"})
+               if (flags.is_given(flag)) options.given.insert(flag);
+             return static_cast<int>(play(options));
+           },
+       .status_of = status_of});
 }

@@ -120,7 +120,7 @@ std::unique_ptr<Meeting> meeting_of(const ServeOptions& options, RankCommand& co
 /// The node that plays the game together with others, once all have met; its terms hold. Null for
 /// a server alone.
 std::unique_ptr<Node> node_of(ServeOptions& options, std::optional<SharedGame>& game,
-                              Meeting* meeting) {
+                              Meeting* meeting, std::function<std::string()> players_place) {
   if (!game || meeting == nullptr) return nullptr;
   NodeSettings settings;
   const bool is_hosting = !options.hosted.empty();
@@ -131,6 +131,7 @@ std::unique_ptr<Node> node_of(ServeOptions& options, std::optional<SharedGame>& 
   settings.reach = reach_of_clients(options, *game);
   settings.absence_s = options.absence_s;
   settings.notify = [](const std::string& news) { warn(news); };
+  settings.players_place = std::move(players_place);
   auto node = std::make_unique<Node>(*game, *meeting, settings, now_s);
   if (const std::optional<Place> place = meeting->place()) {
     std::printf("nodes reach this one at %s\n", place->text().c_str());
@@ -196,6 +197,14 @@ ExitStatus interrupted(Node* node) {
   return ExitStatus::interrupted;
 }
 
+/// Where players of other machines reach this server; who listens at every address is reached at
+/// that of its node.
+std::string players_place(const ServeOptions& options, const Meeting& meeting, std::uint16_t port) {
+  const std::optional<Place> place = meeting.place();
+  const bool is_everywhere = options.address == "0.0.0.0" || options.address == "::";
+  return Place{is_everywhere && place ? place->address : options.address, port}.text();
+}
+
 ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (!options.status.empty()) return show_status(options);
   for (const std::string& file : options.plugins) load_plugin(file);
@@ -209,7 +218,9 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   played.scene.world.slabs = physics::SlabPlan{.workers = &team};
   rti::ensure_file_limit(options.clients + 64u);
   const std::unique_ptr<Meeting> meeting = meeting_of(options, command);
-  const std::unique_ptr<Node> node = node_of(options, shared, meeting.get());
+  std::string served_at;  // known before anybody plays
+  const std::unique_ptr<Node> node =
+      node_of(options, shared, meeting.get(), [&served_at] { return served_at; });
   played.shared = node.get();
   ServerProcess process(options, fom, played, federation);
   const std::uint16_t port = process.listen();
@@ -217,6 +228,7 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   std::printf("%slistening on %s:%u\n", rank.c_str(), options.address.c_str(),
               static_cast<unsigned>(port));
   std::fflush(stdout);
+  if (node) served_at = players_place(options, *meeting, port);
   process.try_records();
   const bool is_complete = process.start();
   const std::uint32_t came = process.server().seats().player_count();  // before they leave

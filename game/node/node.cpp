@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "game/net/interrupt.h"
+#include "game/net/late_players.h"
 #include "game/net/peer/crowd.h"
 #include "game/net/peer/network/unguessable_number.h"
 #include "game/net/peer/start_together.h"
@@ -25,6 +26,12 @@ PartTeller teller_of(const SessionNetwork& network, const Game& start) {
       teller.seat(to, start.bat(player)->index);
   }
   return teller;
+}
+
+std::string late_refusal(const NodeSettings& settings) {
+  const std::string refusal = "they play already, and none can join them any more";
+  if (!settings.players_place) return refusal;
+  return refusal + "; " + late_players_come_to + settings.players_place();
 }
 
 /// If it fails, the other nodes that wait are told why there is no game.
@@ -62,7 +69,7 @@ void Node::meet() {
                              .session_fingerprint = fingerprint_of_nodes(game_),
                              .session = unguessable_number(),
                              .patience_s = settings_.patience_s,
-                             .admits_late = false,
+                             .late_refusal = [this] { return late_refusal(settings_); },
                              .gathering_s = settings_.gathering_s,
                              .must_end = [this] { return is_interrupted != 0 || must_end_; }},
                             now_s_);

@@ -42,6 +42,8 @@ struct NodeSettings {
   std::optional<FlowTimes> hosting{};  ///< matches, one after the other; the referee's times hold.
                                        ///< Bats are not kept then, but given to whoever comes.
   std::function<void(const std::string&)> notify{};  ///< the user, of losses; by the node's thread
+  std::function<std::string()> players_place{};      ///< by it, too: where players reach this node,
+                                                     ///< ADDRESS:PORT; late nodes are told
 };
 
 /// A node's own thread plays; all functions are the server's thread's. What ends the session early

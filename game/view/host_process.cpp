@@ -27,27 +27,28 @@ game::Process started(const std::vector<std::string>& arguments) try {
   throw std::runtime_error("cannot host: " + server_path() + " cannot be run");
 }
 
-std::vector<std::string> arguments_for(const std::string& port, const std::string& records,
-                                       const std::string& key_file) {
-  std::vector<std::string> words{"match", "--address", "0.0.0.0", "--port",
-                                 port,    "--record",  records};
-  if (!key_file.empty()) words.insert(words.end(), {"--key-file", key_file});
+std::vector<std::string> arguments_for(const HostSettings& settings) {
+  std::vector<std::string> words{settings.scene, "--address", settings.address, "--port",
+                                 settings.port,  "--record",  settings.records};
+  if (!settings.key_file.empty()) words.insert(words.end(), {"--key-file", settings.key_file});
+  words.insert(words.end(), settings.sharing.begin(), settings.sharing.end());
   return words;
 }
 
 }  // namespace
 
-HostProcess::HostProcess(const std::string& port, const std::string& records,
-                         const std::string& key_file)
-    : server_(started(arguments_for(port, records, key_file))) {
+HostProcess::HostProcess(const HostSettings& settings) : server_(started(arguments_for(settings))) {
   while (words_.find('\n') == std::string::npos && !server_.ending()) {
     server_.attend(std::chrono::milliseconds(100));
     words_ += server_.take_output();
   }
   const std::size_t end = std::min(words_.find('\n'), words_.size());
-  if (!words_.starts_with("listening"))
-    throw std::runtime_error("cannot host: " + (words_.empty() ? server_path() + " cannot be run"
-                                                               : words_.substr(0, end)));
+  const std::string first = words_.substr(0, end), listens = "listening on ",
+                    shares = "nodes reach this one at ";
+  if (!first.starts_with(settings.sharing.empty() ? listens : shares))
+    throw std::runtime_error("cannot host: " +
+                             (first.empty() ? server_path() + " cannot be run" : first));
+  if (!settings.sharing.empty()) node_place_ = first.substr(shares.size());
   words_.erase(0, end + 1);
 }
 

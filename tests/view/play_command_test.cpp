@@ -256,7 +256,8 @@ TEST_F(PlayCommand, SaysWhyAMatchCannotBePlayedAndGoesOnInTheMenu) {
       {"--peer 10.1.2.3:4800", "--peer-listen ADDRESS:0 is missing: with peers on other machines"},
       {"--peer-listen 0.0.0.0:0", "none can connect to 0.0.0.0"},
       {"--peer-listen 127.0.0.1:0 --window 0.5", "expected shorter ones"},
-      {"--peer-listen 127.0.0.1:0 --record no/folder", "--record: cannot write 'no/folder'"},
+      {"--scene arena --peer-listen 127.0.0.1:0 --record no/folder",
+       "--record: cannot write 'no/folder'"},
       {"--replay altered.keys", "altered.keys"},
       {"--replay missing.keys", "missing.keys"}};
   for (const auto& [arguments, words] : cases) {

@@ -63,6 +63,7 @@ void PlayingPeer::meet() {
                           .session_fingerprint = game_.session_fingerprint(),
                           .session = unguessable_number(),
                           .patience_s = settings_.patience_s,
+                          .gathering_s = settings_.gathering_s,
                           .must_end = must_end},
       now_s_);
 }

@@ -25,6 +25,7 @@ struct PlayingPeerSettings {
                              ///< `join`, of peers on this machine
   Terms terms;               ///< set by a first peer
   double patience_s = 10.0;  ///< with silent peers
+  double gathering_s = 600.0;  ///< until all first peers are there
   double countdown_s = 3.0;
   double view_fraction = 1.0;  ///< of the field's area, about the own bat; from 1 on everything
   std::string record;          ///< everybody's keys go to this file in the end; empty: nowhere

@@ -56,9 +56,7 @@ void PeerAdmission::answer_in_play(rti::ConnectionId connection, const Hello& he
     return links_.refuse(
         connection, RefusalKind::other,
         "they play already, and without replicas (--unmirrored) none can join them");
-  if (!admits_late_)
-    return links_.refuse(connection, RefusalKind::other,
-                         "they play already, and none can join them any more");
+  if (late_refusal_) return links_.refuse(connection, RefusalKind::other, late_refusal_());
   const bool is_good = !hello.info.place.address.empty() && hello.info.place.port != 0 &&
                        bytes_of(hello.info.place).size() <= peer::Newcomer::place_max;
   if (!is_good)

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/net/peer/network/peer_links.h"
@@ -17,8 +19,8 @@ class PeerAdmission {
  public:
   PeerAdmission(PeerLinks& links, PeerRoster& roster, double (*now_s)());
 
-  /// Who asks while others play is refused from now on, whatever the terms.
-  void admit_nobody_late() { admits_late_ = false; }
+  /// Who asks while others play is refused from now on, for this reason.
+  void refuse_late(std::function<std::string()> reason) { late_refusal_ = std::move(reason); }
   /// A stranger's frame. False for one that no peer would send.
   bool handle(rti::ConnectionId connection, const Frame& frame);
   /// What came before the own number was known is answered now. Connections that are peers' since
@@ -48,7 +50,7 @@ class PeerAdmission {
   PeerLinks& links_;
   PeerRoster& roster_;
   double (*now_s_)();
-  bool admits_late_ = true;
+  std::function<std::string()> late_refusal_;
 };
 
 }  // namespace rink::game

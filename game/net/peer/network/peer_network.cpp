@@ -28,7 +28,7 @@ PeerNetwork::PeerNetwork(rti::SocketTransport& sockets, const PeerNetworkSetting
       admission_(links_, roster_, now_s),
       dialling_(links_, roster_, losses_),
       conversation_(links_, roster_, losses_) {
-  if (!settings.admits_late) admission_.admit_nobody_late();
+  if (settings.late_refusal) admission_.refuse_late(settings.late_refusal);
 }
 
 void PeerNetwork::attend(double wait_s) {

@@ -23,8 +23,8 @@ struct PeerNetworkSettings {
   Fingerprint session_fingerprint;
   std::uint64_t session = 0;  ///< of a first peer: a number that cannot be guessed
   double patience_s = 30.0;   ///< timeout of a peer whose answer is due
-  bool admits_late = true;    ///< whether others may join while these play, where parts are
-                              ///< replicated
+  /// Why nobody may join while these play; empty: others may, where parts are replicated.
+  std::function<std::string()> late_refusal{};
   double gathering_s =
       std::numeric_limits<double>::infinity();  ///< how long the first peers wait for each other
   std::function<bool()> must_end = [] {
