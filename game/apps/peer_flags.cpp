@@ -94,7 +94,10 @@ void add_options(Flags& flags, PeerOptions& options) {
       "bodies in its part of the field, and all together compute, bit for bit, what\n"
       "one engine does. The first one sets how many begin and how long they play; all others join "
       "through any running one, before the start or during the game. In the\n"
-      "end each prints its report and the hash of the whole, which is that of rink simulate.");
+      "end each prints its report and the hash of the whole, which is that of rink simulate. A "
+      "match, "
+      "such as the scene match, each plays whole, to its end or --until; rink play --peer joins "
+      "it.");
   flags.name("rink peer");
   flags.option("--scene", options.scene, "a scene file or the name of a preset; the same for all")
       .is_required();
@@ -117,7 +120,9 @@ void add_options(Flags& flags, PeerOptions& options) {
                    : "'" + name + "' is no player: expected random" + player_names();
       })
       .shows_default();
-  flags.option("--pace", options.pace, "realtime: by the clock; free: as fast as they can")
+  flags
+      .option("--pace", options.pace,
+              "realtime: by the clock, as matches always are; free: as fast as they can")
       .check(one_of({"realtime", "free"}))
       .shows_default();
   flags.option("--record", options.record,
@@ -189,8 +194,10 @@ void add_options(Flags& flags, PeerOptions& options) {
       .check(one_of({"tcp", "shm", "mpi"}))
       .shows_default();
   flags
-      .option("--patience", options.patience_s,
-              "how long a peer whose message is due may be silent [s]")
+      .option(
+          "--patience", options.patience_s,
+          "how long a peer whose message is due may be silent, and both players of a match stay "
+          "away [s]")
       .check(number_from(0.1, seconds_max))
       .shows_default();
   flags.footer(
@@ -201,7 +208,8 @@ void add_options(Flags& flags, PeerOptions& options) {
       "Exit status: 0 done, 1 failed or a peer that sent an impossible message, 2 bad flag or "
       "file, 10 "
       "address in use, 11 no peer there, 12 wrong protocol version, 14 not admitted,\n"
-      "16 a peer is gone, 19 this peer continued alone and the other may have done so too, 130 "
+      "16 a peer is gone, 17 a match's players did not come, 19 this peer continued alone and the "
+      "other may have done so too, 130 "
       "interrupted.");
 }
 

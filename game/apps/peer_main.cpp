@@ -1,9 +1,12 @@
 // rink peer: one of the processes that share a simulation without a server, equal to one engine's
 // bit for bit.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iomanip>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +18,7 @@
 #include "game/apps/peer_report.h"
 #include "game/apps/rank_command.h"
 #include "game/control/key_log_file.h"
+#include "game/control/match_flow.h"
 #include "game/model/report_fields.h"
 #include "game/model/scene_file.h"
 #include "game/net/address.h"
@@ -28,6 +32,9 @@
 #include "game/net/peer/shared_game.h"
 #include "game/net/peer/start_together.h"
 #include "game/net/record_file.h"
+#include "game/node/match/match_bots.h"
+#include "game/node/node.h"
+#include "game/node/socket_meeting.h"
 #include "game/version/version.h"
 #include "rti/transport/socket_transport.h"
 
@@ -166,6 +173,87 @@ ExitStatus share(const PeerOptions& options, const Terms& terms, SharedGame& sha
   }
 }
 
+/// A match is small, and each peer plays the whole of one: they tell each other keys alone.
+bool is_match(const PeerOptions& options, const SharedGame& shared) {
+  return options.transport != "mpi" && !shared.has_keys() && !match_objection(shared.scene());
+}
+
+void require_match_options(const PeerOptions& options) {
+  if (!options.terms.interest.scheme.empty() || options.terms.is_seated ||
+      !options.viewing.trace.empty())
+    throw std::invalid_argument("--scheme, --seated, --evidence: in a match, scene '" +
+                                options.scene +
+                                "', every peer has all bodies: expected none of these");
+}
+
+std::unique_ptr<Meeting> meeting_of_match(const PeerOptions& options) {
+  const Place place = listening_place(options.listen, options.join, options.transport == "tcp");
+  if (!options.join.empty()) {
+    const auto [address, port] = address_and_port("--join", options.join);
+    return std::make_unique<SocketMeeting>(place, Place{address, port}, options.transport);
+  }
+  Terms terms = terms_of_matches(options.terms.peer_count, options.terms.window);
+  terms.until = options.terms.until;
+  terms.is_replicated = options.terms.is_replicated;
+  return std::make_unique<SocketMeeting>(place, terms, options.transport);
+}
+
+Json report_of_match(const PlayedPart& part, const Node& node, const MatchBots& bots,
+                     double playing_s) {
+  std::uint64_t sent = 0;
+  for (const rti::TransportCounters& to : node.sent()) sent += to.bytes_sent;
+  Json report{{"peer", node.number()},
+              {"peers", part.members},
+              {"time", part.time},
+              {"goals_left", part.score.left},
+              {"goals_right", part.score.right},
+              {"keys", part.keys.size()},
+              {"key_presses", bots.presses()},
+              {report::bytes_sent, sent},
+              {"wall_s", playing_s},
+              {"cpu_s", processor_s()},
+              {report::rss_bytes, resident_bytes()},
+              {"lost", part.lost}};
+  add_hash(report, part);
+  return report;
+}
+
+/// To the end of the first match, or from match to match if the first peer's terms are so.
+ExitStatus play_match(const PeerOptions& options, SharedGame& shared) {
+  require_match_options(options);
+  const std::unique_ptr<Meeting> meeting = meeting_of_match(options);
+  std::printf("listening on %s\n", meeting->place().value_or(Place{}).text().c_str());
+  std::fflush(stdout);
+  Node node(shared, *meeting,
+            {.patience_s = options.patience_s,
+             .gathering_s = std::numeric_limits<double>::infinity(),
+             .hosting = FlowTimes{},
+             .notify = [](const std::string& what) { warn(what); }},
+            now_s);
+  const auto rest = [] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
+  node.meet();
+  if (!options.join.empty()) std::printf("peer %u of %u\n", node.number(), node.terms().peer_count);
+  while (!node.may_begin()) rest();
+  node.begin();
+  std::printf("playing\n");
+  std::fflush(stdout);
+  const double begun_s = now_s();
+  MatchBots bots(shared.scene(), node,
+                 {.count = options.bots,
+                  .kinds = options.players,
+                  .seed = shared.scene().seed,
+                  .window = node.terms().window});
+  for (; !node.has_ended(); rest()) {
+    bots.look();
+    if (bots.state().number == 0 && now_s() > begun_s + options.patience_s)
+      throw SessionError(ExitStatus::nobody_came,
+                         "the match's two players did not come within " +
+                             std::to_string(std::lround(options.patience_s)) + " s");
+  }
+  const PlayedPart& part = node.finish();
+  return leave_behind(options, shared, part, report_of_match(part, node, bots, now_s() - begun_s));
+}
+
 ExitStatus run(const PeerOptions& options, RankCommand& command) {
   const RecordFile record("--record", options.record);
   require_writable("--report", options.report);
@@ -180,6 +268,7 @@ ExitStatus run(const PeerOptions& options, RankCommand& command) {
     throw std::invalid_argument("--bots: " + std::to_string(options.bots) +
                                 " wanted, the scene has " + std::to_string(shared.bat_count()) +
                                 " bats");
+  if (is_match(options, shared)) return play_match(options, shared);
   require_viewing(options.terms, options.viewing, shared, options.bots);
   if (options.bots > 0 && shared.has_keys())
     throw std::invalid_argument(

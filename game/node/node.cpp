@@ -119,7 +119,18 @@ Node::~Node() {
 
 void Node::run() {
   try {
-    share();
+    wait_for([this] { return is_ready_.load(); });
+    const double start_s = start_together(*network_, now_s_) + start_lead_s;
+    network_->receive_aside = [this](peer::PeerNumber from,
+                                     const std::vector<std::uint8_t>& bytes) {
+      return receive(from, bytes);
+    };
+    network_->begin();
+    start_s_ = start_s;
+    wait_for([this] { return has_begun(); });
+    if (match_) host();
+    else play();
+    network_->leave({});
   } catch (const std::exception& error) {
     outcome_.failure = std::current_exception();
     network_->leave(
@@ -134,20 +145,6 @@ void Node::wait_for(const std::function<bool()>& is_there) {
       throw SessionError(ExitStatus::interrupted, "interrupted while no game was played");
     network_->rest_until(now_s_() + look_s);
   }
-}
-
-void Node::share() {
-  wait_for([this] { return is_ready_.load(); });
-  const double start_s = start_together(*network_, now_s_) + start_lead_s;
-  network_->receive_aside = [this](peer::PeerNumber from, const std::vector<std::uint8_t>& bytes) {
-    return receive(from, bytes);
-  };
-  network_->begin();
-  start_s_ = start_s;
-  wait_for([this] { return has_begun(); });
-  if (match_) host();
-  else play();
-  network_->leave({});
 }
 
 /// A match needs the start again when the next one begins.

@@ -94,6 +94,8 @@ class Node final : public SharedPlay, private WindowParticipant {
   SharedMatch* match() override { return match_ ? &*match_ : nullptr; }
   std::vector<rti::TransportCounters> sent() const override { return traffic_.sent(); }
 
+  /// Then finish() does not wait.
+  bool has_ended() const { return outcome_.has_ended; }
   /// Waits for the end of the session, which comes with its last window: what was played.
   const PlayedPart& finish();
   /// What the others were told, once it is finished.
@@ -124,7 +126,6 @@ class Node final : public SharedPlay, private WindowParticipant {
   double clock_s() const { return now_s_() - start_s_; }
   void run();
   void wait_for(const std::function<bool()>& is_there);
-  void share();
   void play();
   // node_hosting.cpp
   void host();

@@ -6,6 +6,17 @@
 #include "game/node/node.h"
 
 namespace rink::game {
+namespace {
+
+/// What a part that each has played alone does not know.
+void note_losses(const MatchMembers& members, PlayedPart& part) {
+  part.members = members.left().size();
+  part.may_have_split = members.may_have_split();
+  for (peer::PeerNumber node = 0; node < members.count(); ++node)
+    if (members.is_lost(node)) part.lost.push_back(node);
+}
+
+}  // namespace
 
 /// The referee decides nothing more that holds from a session's start once it has called all to it.
 void Node::host() try {
@@ -38,6 +49,7 @@ void Node::host() try {
     if (std::max(score.left, score.right) >= game_.scene().rules.goals_to_win.value_or(0))
       match_->note_won(score.left > score.right ? Team::left : Team::right, outcome_.part.time);
     if (recovery.is_referee()) match_->follow_win();
+    if (is_one_match(terms())) return note_losses(recovery.members(), outcome_.part);
   }
 } catch (const SessionError& error) {
   if (error.status() != ExitStatus::interrupted ||

@@ -21,7 +21,6 @@ Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
 }
 
 Terms terms_of_matches(std::uint32_t node_count, double tick_s, std::uint32_t balance_windows) {
-  constexpr double match_s_max = 1e6;  // none is so long
   const double window = std::max(1.0, std::round(tick_s / tick_grid)) * tick_grid;
   Terms terms = terms_of_nodes(node_count, match_s_max, window, balance_windows);
   terms.interest.scheme = matches_scheme;

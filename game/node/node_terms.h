@@ -20,6 +20,11 @@ Terms terms_of_nodes(std::uint32_t node_count, double until, double tick_s,
 Terms terms_of_matches(std::uint32_t node_count, double tick_s,
                        std::uint32_t balance_windows = balance_windows_default);
 
+/// No match is so long [s], which is not too many windows of the shortest tick. Nodes whose terms
+/// last so long play match after match; others end with the first, at the latest then.
+inline constexpr double match_s_max = 9e5;
+inline bool is_one_match(const Terms& terms) { return terms.until < match_s_max; }
+
 /// Nodes and peers of one scene refuse each other: they do not speak of the same things.
 Fingerprint fingerprint_of_nodes(const SharedGame& game);
 

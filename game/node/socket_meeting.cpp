@@ -5,12 +5,13 @@
 
 namespace rink::game {
 
-SocketMeeting::SocketMeeting(const Place& place, const Terms& terms)
-    : place_(place), terms_(terms) {
+SocketMeeting::SocketMeeting(const Place& place, const Terms& terms, const std::string& transport)
+    : sockets_(transport), place_(place), terms_(terms) {
   place_.port = sockets_.listen(place.address, place.port);
 }
 
-SocketMeeting::SocketMeeting(const Place& place, const Place& join) : place_(place), join_(join) {
+SocketMeeting::SocketMeeting(const Place& place, const Place& join, const std::string& transport)
+    : sockets_(transport), place_(place), join_(join) {
   place_.port = sockets_.listen(place.address, place.port);
 }
 

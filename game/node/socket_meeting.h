@@ -1,8 +1,9 @@
-// Nodes meet over TCP.
+// Nodes meet over TCP or shared memory.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "game/node/meeting.h"
 #include "rti/transport/socket_transport.h"
@@ -13,14 +14,14 @@ class SocketMeeting final : public Meeting {
  public:
   /// Listens at `place`, of which port 0 is any free one. The first node sets the terms; another
   /// one asks any node, at `join`. Throws TransportError.
-  SocketMeeting(const Place& place, const Terms& terms);
-  SocketMeeting(const Place& place, const Place& join);
+  SocketMeeting(const Place& place, const Terms& terms, const std::string& transport = "tcp");
+  SocketMeeting(const Place& place, const Place& join, const std::string& transport = "tcp");
 
   std::optional<Place> place() const override { return place_; }
   std::unique_ptr<SessionNetwork> enter(PeerNetworkSettings self, double (*now_s)()) override;
 
  private:
-  rti::SocketTransport sockets_{"tcp"};
+  rti::SocketTransport sockets_;
   Place place_;
   Terms terms_;
   std::optional<Place> join_;

@@ -78,7 +78,7 @@ const std::vector<Layer> layers{
       "rti", "rti/transport", "im/pairs"}},
     {"game/node",
      {"game/node", "game/net/server", "game/net", "game/net/peer", "game/peer", "game/replication",
-      "game/control", "game/model", "game/physics", "rti/transport", "im"}},
+      "game/control", "game/players", "game/model", "game/physics", "rti/transport", "im"}},
     {"game/apps",
      {"game/apps",       "game/version",     "game/view",    "game/view/render", "game/match",
       "game/net/server", "game/net/client",  "game/net",     "game/net/peer",    "game/node",

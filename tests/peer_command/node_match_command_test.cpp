@@ -244,6 +244,17 @@ TEST_F(MatchesAtNodes, AreNotHostedForADuration) {
   EXPECT_THAT(host.stderr_tail(), HasSubstr("--duration: nodes host matches until"));
 }
 
+TEST_F(MatchesAtNodes, AreHostedAtTheShortestTick) {
+  const Words words{"match",       "--nodes", "2",    "--node-listen",
+                    "127.0.0.1:0", "--rate",  "1000", "--patience",
+                    "1",           "--port",  "0"};
+  const Process& host = *peers_.emplace_back(
+      std::make_unique<Process>(test::binary_folder() + "/bin/rink-serve", words));
+  ASSERT_TRUE(ends(host));
+  EXPECT_EQ(host.ending()->exit_status, static_cast<int>(ExitStatus::nobody_came))
+      << host.stderr_tail();
+}
+
 TEST_F(MatchesAtNodes, RefuseAThirdPlayerAtEitherNode) {
   host("100");
   begin_match();
