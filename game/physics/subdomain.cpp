@@ -279,7 +279,7 @@ std::vector<std::uint32_t> Subdomain::group_of(std::uint32_t body) const {
 void Subdomain::begin_window() {
   if (slots_.slot_count() > slots_.count() + slots_.count() / 4 + 64) spread(0);
   before_->begin();
-  journal_.changes.clear(), journal_.motions.clear(), journal_.looked_at.clear();
+  journal_.changes.clear(), journal_.motions.clear(), journal_.sight.clear();
   journal_.thrusts.clear();
   journal_.event = 0, journal_.quiet_events = 0, journal_.mixed_digest = 0,
   journal_.at_once_max = 0;
@@ -306,7 +306,7 @@ void WorldJournal::observe(World& world) {
 void WorldJournal::detach(World& world) { world.engine_->observe({}); }
 
 void WorldJournal::forget() {
-  journal_.changes.clear(), journal_.motions.clear(), journal_.looked_at.clear();
+  journal_.changes.clear(), journal_.motions.clear(), journal_.sight.clear();
   journal_.thrusts.clear();
   journal_.event = 0, journal_.mixed_digest = 0, journal_.at_once_max = 0;
   journal_.times.clear(), journal_.counted.clear(), journal_.unsolved.clear();

@@ -173,6 +173,53 @@ std::uint64_t expect_same_bodies(SharedScene& scene, const Division& division, d
   return repeats;
 }
 
+/// A heap that bats press, of more contacts than glide by themselves, and above it one that nobody
+/// touches, in sight of the pile alone.
+SharedScene heap_below_a_stray() {
+  SharedScene scene{physics::World(physics::test::rink_of(4.0, 2.0, 0.5, 0.0, 1.0)), {}};
+  physics::World& world = scene.world;
+  Random random(25);
+  const double radius = 0.04, step = 2.0 * radius + 2e-7;
+  const int columns = 10, rows = 8;
+  world.add(physics::PuckSpec{.position = {1.36, 0.5 + rows * step + 0.006 + radius},
+                              .velocity = {0.01, 0.0}});
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      const double dx = uniform(random, 0.0, 1e-7), dy = uniform(random, 0.0, 1e-7);
+      world.add(physics::PuckSpec{
+          .position = {1.0 + step * (i + 0.5) + dx, 0.5 + step * (j + 0.5) + dy}, .mass = 0.2});
+    }
+  for (const double side : {-1.0, 1.0}) {
+    const double x = side < 0.0 ? 1.0 - 0.04 - 1e-6 : 1.0 + columns * step + 0.04 + 1e-6;
+    const std::uint32_t bat =
+        world.add(physics::BatSpec{.position = {x, 0.82}, .half_extent = {0.04, 0.3}, .mass = 3.0})
+            .index;
+    scene.keys.push_back({0.0, bat, Vector2(-side * 12.0, 0.0)});
+  }
+  return scene;
+}
+
+/// The pile turns one that is 6 mm away to its last event's time, though halos reach 2 mm: neither
+/// owner would see the other's, and their states would be others than the engine's.
+TEST(SharedSimulation, EqualsOneEngineWhereAPileGathersOneBeyondTheHalo) {
+  SharedScene scene = heap_below_a_stray();
+  const double border = 1.143;
+  const Division division(scene.world.spec().field,
+                          {{{0.0, 0.0, 4.0, border}, 0}, {{0.0, border, 4.0, 2.0}, 1}}, 2);
+  EXPECT_GT(expect_same_bodies(scene, division, 0.002, 10), 0u);
+  const BodyState stray = physics::Subdomain::state_in(scene.world, 0);
+  EXPECT_GT(stray.flight.time, 0.09) << "the pile gathers it";
+  EXPECT_NEAR(stray.flight.y, 1.186, 1e-5) << "nobody touches it";
+}
+
+/// A pile of 70 bodies of six peers: its farthest body's owner saw no event of it, and was named
+/// after 104 attempts.
+TEST(SharedSimulation, EqualsOneEngineWhereAPileReachesOneWhomNobodyTouches) {
+  const Played played = expect_same_history(1674, 150);
+  EXPECT_GT(played.truth.hops, 0u);
+  EXPECT_LT(played.counters.repeats, played.counters.windows / 4);
+}
+
 Division slices(const physics::Field& field, PeerNumber peer_count) {
   std::vector<Zone> zones;
   for (PeerNumber k = 0; k < peer_count; ++k)

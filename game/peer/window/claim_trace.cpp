@@ -122,6 +122,11 @@ double ClaimTrace::time_of(const Step& step) const {
   return share_.subdomain().journal().changes[step.change].time;
 }
 
+double ClaimTrace::reach_of(const Step& step) const {
+  assert(step.change < share_.subdomain().journal().changes.size());
+  return share_.subdomain().journal().changes[step.change].reach;
+}
+
 physics::Motion ClaimTrace::motion_after(const Step& step) const {
   const physics::Journal& journal = share_.subdomain().journal();
   assert(step.change < journal.changes.size());
@@ -160,10 +165,12 @@ void ClaimTrace::lay_out_path(std::uint32_t body, const Window& window) {
            : swept(share_.subdomain().motion_before(body), window.start, begin_of(0), extent)});
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const physics::Motion motion = motion_after(steps[k]);
+    // As far as the event looked, whoever is there may have been in it.
+    const double reach = reach_of(steps[k]);
     const bool is_out = k + 1 == steps.size() && !share_.world().is_in_play({body});
-    flights_.push_back({begin_of(k), begin_of(k + 1), steps[k].state,
-                        is_out ? Box::around(motion.position, extent)
-                               : swept(motion, begin_of(k), begin_of(k + 1), extent)});
+    const Box box = is_out ? Box::around(motion.position, extent)
+                           : swept(motion, begin_of(k), begin_of(k + 1), extent);
+    flights_.push_back({begin_of(k), begin_of(k + 1), steps[k].state, box.grown(reach)});
   }
   assert(flights_.size() == first + 1 + steps.size());
   paths_.push_back({body, first, flights_.size()});

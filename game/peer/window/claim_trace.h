@@ -12,13 +12,14 @@
 
 namespace rink::peer {
 
-/// Bodies further apart than this do not affect each other at an instant [m]: twice the widest gap
-/// in the engine's clusters, and all roundings.
+/// Bodies further apart than this do not affect each other at an instant [m], unless by a pile
+/// (physics::Change::reach): twice the widest gap in the engine's clusters, and all roundings.
 inline constexpr double touch_margin = 4e-5;
 /// Events within this time of each other count as simultaneous [s]: twice the engine's instant.
 inline constexpr double time_margin = 2e-9;
 
-/// A stretch of a body's path; `state` as in ClaimedFlight.
+/// A stretch of a body's path; `state` as in ClaimedFlight. The box is wider by as far as the event
+/// at `begin` looked for a pile.
 struct PathFlight {
   double begin, end;
   std::uint64_t state;
@@ -77,6 +78,7 @@ class ClaimTrace {
     std::size_t begin, end;
   };
 
+  double reach_of(const Step& step) const;
   void find_steps();
   void enter(const Event& event);
   void lay_out_paths(const Window& window);

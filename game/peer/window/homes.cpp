@@ -129,8 +129,8 @@ void Homes::find_edge() {
     const std::uint32_t body = change.body;
     if (!share_.owns(body) || is_edge_[body] != 0) continue;
     // A straight flight between two places in a convex interior stays inside; one that bends may
-    // not.
-    const bool is_straight = change.motion == physics::Change::straight;
+    // not. Where a pile was looked for, paths count wherever they are.
+    const bool is_straight = change.motion == physics::Change::straight && !(change.reach > 0.0f);
     if (watches_[body] == Watch::none &&
         !(is_straight &&
           stays(homes_[body], {change.x, change.y}, {change.vx, change.vy}, change.since)))

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cassert>
 
+#include "im/basics/sorted_set.h"
+
 namespace rink::physics::inline RINK_PRECISION {
 
 std::uint64_t conditions_of(const Bodies& bodies, std::uint32_t body) {
@@ -36,10 +38,10 @@ namespace {
 /// Drops the bodies that the current event found at places which they reached only after it. None
 /// of them was near enough to take part, or else the check rejects the window.
 void forget_later(Journal& journal, const Bodies& bodies) {
-  const auto later = std::erase_if(journal.looked_at, [&](std::uint32_t body) {
+  const auto later = std::erase_if(journal.sight.looked_at, [&](std::uint32_t body) {
     return bodies[body].time > journal.time && !bodies[body].is(Body::touched);
   });
-  if (later > 0 && std::ranges::any_of(journal.looked_at, [&](std::uint32_t body) {
+  if (later > 0 && std::ranges::any_of(journal.sight.looked_at, [&](std::uint32_t body) {
         return !bodies[body].is(Body::touched);
       }))
     journal.parts = Journal::Parts::unsure;
@@ -53,21 +55,23 @@ bool is_free_impact(const Journal& journal, const Bodies& bodies) {
     return b.kind == BodyKind::puck && (b.flags & ~Body::touched) == 0;
   };
   const auto is_touched = [&](std::uint32_t body) { return bodies[body].is(Body::touched); };
-  return bodies.touched().size() == 2 && journal.mixed_digest == 0 &&
+  return bodies.touched().size() == 2 && journal.mixed_digest == 0 && journal.sight.reach == 0.0 &&
          std::ranges::all_of(bodies.touched(), is_free) &&
-         std::ranges::all_of(journal.looked_at, is_touched);
+         std::ranges::all_of(journal.sight.looked_at, is_touched);
 }
 
 }  // namespace
 
 void enter_changes(Journal& journal, const Bodies& bodies, bool may_be_quiet) {
   assert(journal.rooms_of.size() == bodies.count());
+  if (journal.sight.reach > 0.0)
+    make_sorted_set(journal.sight.looked_at);  // by a pile and a joint impact
   if (journal.parts != Journal::Parts::none) forget_later(journal, bodies);
   if (may_be_quiet && is_free_impact(journal, bodies)) {
     const std::uint32_t low = bodies.touched()[0], high = bodies.touched()[1];
     journal.enter_impact({low, bodies[low], conditions_of(bodies, low)},
                          {high, bodies[high], conditions_of(bodies, high)});
-    journal.looked_at.clear();
+    journal.sight.clear();
     ++journal.event;
     return;
   }
@@ -78,9 +82,9 @@ void enter_changes(Journal& journal, const Bodies& bodies, bool may_be_quiet) {
     journal.motions.push_back(bodies.motion(body));
   };
   for (const std::uint32_t body : bodies.touched()) enter(body);
-  for (const std::uint32_t body : journal.looked_at)
+  for (const std::uint32_t body : journal.sight.looked_at)
     if ((bodies[body].flags & Body::touched) == 0) enter(body);
-  journal.looked_at.clear();
+  journal.sight.clear();
   journal.mixed_digest = 0;
   ++journal.event;
 }

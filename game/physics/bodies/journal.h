@@ -25,6 +25,7 @@ struct Change {
   std::uint64_t conditions;   ///< a digest of all else that its future depends on
   std::uint32_t body, event;  ///< changes of one event have the same number, and stand side by side
   std::uint32_t motion;       ///< in Journal::motions; `straight` if it flies freely
+  float reach = 0.0f;  ///< how far around the body the event looked for a pile, if at all [m]
 };
 
 /// Kept by a world for the subdomain that looks at it (subdomain.h). The world calls bodies by
@@ -38,10 +39,16 @@ struct Journal {
     }
   };
 
+  struct Sight {
+    std::vector<std::uint32_t> looked_at;  ///< slots
+    Real reach = 0.0;                      ///< as in Change
+    void clear() { looked_at.clear(), reach = 0.0; }
+  };
+
   std::vector<Change> changes;
   std::vector<Motion>
       motions;  ///< of those that went on along a curve, or have companions, or are out of play
-  std::vector<std::uint32_t> looked_at;  ///< by the event at hand: slots
+  Sight sight;  ///< of the event at hand
   std::uint32_t event = 0;
   std::uint64_t mixed_digest =
       0;               ///< a digest of what the event at hand does to the rhythm of impacts
@@ -92,8 +99,8 @@ struct Journal {
     const auto& [slot, f, conditions] = entry;
     const std::uint32_t body = number_of(slot);
     if (rooms_of[slot] != 0) rooms_of[slot] = 0, entered.push_back(body);
-    changes.push_back(
-        {time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event, Change::straight});
+    changes.push_back({time, f.x, f.y, f.vx, f.vy, f.time, conditions, body, event,
+                       Change::straight, static_cast<float>(sight.reach)});
   }
   bool is_quiet(std::uint32_t body, const Flight& f) const {
     if (rooms_of[body] == 0) return false;
@@ -149,7 +156,7 @@ struct Journal {
     changes.resize(mark.changes), motions.resize(mark.motions);
     times.resize(mark.times), counted.resize(mark.times);
     unsolved.resize(mark.unsolved), thrusts.resize(mark.thrusts), entered.resize(mark.entered);
-    looked_at.clear();
+    sight.clear();
     event = mark.event, mixed_digest = 0;
     time = mark.time, played = mark.played;
     at_once_max = mark.at_once_max, quiet_events = mark.quiet_events;

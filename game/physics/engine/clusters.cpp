@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "game/physics/bodies/journal.h"
 #include "game/physics/bodies/tolerances.h"
 
 namespace rink::physics::inline RINK_PRECISION {
@@ -21,17 +22,25 @@ constexpr double glide_room = 0.75 * cluster_gap;
 /// roundings would be none. Its energy, 1e-24 of what there is, is below rounding.
 constexpr Real parting_min = 1e-12 * fineness;
 constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that moves no faster stops
+
+/// Whoever does not know that the body comes may decide otherwise about a pile.
+void record_sight(std::uint32_t body, const Observers& observers) {
+  if (observers.journal == nullptr) return;
+  std::vector<std::uint32_t>& looked_at = observers.journal->sight.looked_at;
+  if (std::find(looked_at.begin(), looked_at.end(), body) == looked_at.end())
+    looked_at.push_back(body);
+}
 }  // namespace
 
 Clusters::Clusters(const WorldSpec& spec, const Uses& uses)
-    : bodies_(uses.bodies),
+    : spec_(spec),
+      bodies_(uses.bodies),
       detection_(uses.detection),
       history_(uses.history),
       jams_(uses.jams),
       rests_(uses.rests),
       record_(uses.record),
-      puck_friction_(spec.puck_friction),
-      contact_time_(spec.contact_time),
+      observers_(uses.observers),
       glide_max_(glide_max(spec)),
       rest_speed_(rest_speed(spec)) {}
 
@@ -86,14 +95,15 @@ bool Clusters::hop_gathered(const Closing& closing, const Limits& limits, Real t
 
 void Clusters::part(Real pressure, Real pressing, Real thrust) {
   const Real speed = problem_.speed(), least = parting_min * speed;
-  const Real driven = std::max(
-                 least, std::clamp<Real>(0.5 * pressure * contact_time_, 0.0, 0.5 * rest_speed_)),
+  const Real driven = std::max(least, std::clamp<Real>(0.5 * pressure * Real(spec_.contact_time),
+                                                       0.0, 0.5 * rest_speed_)),
              sum = driven * static_cast<Real>(problem_.touches.size());
   const Real glancing = glancing_speed(thrust, pressing, speed);
   const bool is_glancing = glancing > driven;
-  const Real separation = is_glancing      ? glancing
-                          : pressure > 0.0 ? driven
-                                           : std::max(least, 0.5 * turning() * contact_time_);
+  const Real separation = is_glancing ? glancing
+                          : pressure > 0.0
+                              ? driven
+                              : std::max(least, 0.5 * turning() * Real(spec_.contact_time));
   const Real gain_max = 0.5 * mass() * (is_glancing ? glancing * glancing : sum * sum);
   record_.counters().hop_energy +=
       std::max(0.0, static_cast<double>(solver_.part(problem_, separation, gain_max)));
@@ -177,11 +187,12 @@ Glide Clusters::glide_of(Real thrust, Real turn, Real room) const {
     return (3.0 * (rate + thrust * duration / nearest) + drag) * thrust * duration * duration / 6.0;
   };
   Real duration = std::clamp<Real>(
-      std::min({turn / rate, std::sqrt(2.0 * turn * nearest / thrust), clear_time_}), contact_time_,
-      glide_max_);
-  for (Real excess = opening(duration) * duration / room; excess > 1.0 && duration > contact_time_;
+      std::min({turn / rate, std::sqrt(2.0 * turn * nearest / thrust), clear_time_}),
+      Real(spec_.contact_time), glide_max_);
+  for (Real excess = opening(duration) * duration / room;
+       excess > 1.0 && duration > Real(spec_.contact_time);
        excess = opening(duration) * duration / room)
-    duration = std::max(contact_time_, 0.99 * duration / std::sqrt(std::sqrt(excess)));
+    duration = std::max(Real(spec_.contact_time), 0.99 * duration / std::sqrt(std::sqrt(excess)));
   return {duration, std::max(Real(parting_min) * problem_.speed(),
                              std::min<Real>(opening(duration), 0.5 * rest_speed_))};
 }
@@ -228,7 +239,7 @@ Real Clusters::turning() const {
 /// for 16 `contact_time`: that presses weakly and only until they rest. During the flight friction
 /// takes more energy than the hop gives, for they are faster than twice the hop.
 Real Clusters::glancing_speed(Real thrust, Real pressing, Real speed) const {
-  const Real apart = 0.5 * pressing * Real(glancing_part) * contact_time_;
+  const Real apart = 0.5 * pressing * Real(glancing_part) * Real(spec_.contact_time);
   return bodies_.is_slowed() && thrust == 0.0 && speed > 2.0 * apart ? apart : Real(0.0);
 }
 
@@ -238,8 +249,9 @@ Real Clusters::still_speed() const {
   const bool is_slowed_down =
       std::all_of(members_.begin(), members_.end(),
                   [&](std::uint32_t body) { return bodies_.is_slowed(body); });
-  return is_slowed_down ? std::max<Real>(creep_speed, puck_friction_ * contact_time_)
-                        : Real(creep_speed);
+  return is_slowed_down
+             ? std::max<Real>(creep_speed, spec_.puck_friction * Real(spec_.contact_time))
+             : Real(creep_speed);
 }
 
 std::uint32_t Clusters::place_of(std::uint32_t body, const Limits& limits, Real time) {
@@ -264,7 +276,10 @@ void Clusters::add_contact(std::uint32_t place, Partner p, const Limits& limits,
       bodies_.is_fixed(p) ? RealVector(0.0, 0.0) : motion_at(bodies_, p, time).velocity;
   const Real opening = c.gap.normal.dot(bodies_.velocity(body) - there);
   if (c.gap.distance > limits.gap) {
-    if (opening < 0.0) clear_time_ = std::min(clear_time_, c.gap.distance / -opening);
+    if (opening >= 0.0) return;
+    const Real clear = c.gap.distance / -opening;
+    clear_time_ = std::min(clear_time_, clear);
+    if (clear <= glide_max_ && !bodies_.is_fixed(p)) record_sight(p, observers_);
     return;
   }
   if (std::abs(opening) > limits.speed) return;
@@ -306,6 +321,8 @@ void Clusters::gather(const Contact& c, const Limits& limits, Real time) {
   places_.resize(bodies_.count());
   problem_.clear();
   clear_time_ = infinity;
+  if (observers_.journal != nullptr)
+    observers_.journal->sight.reach = std::max(observers_.journal->sight.reach, limits.sight);
   place_of(c.body, limits, time);
   if (!bodies_.is_fixed(c.partner)) place_of(c.partner, limits, time);
   for (std::uint32_t place = 0; place < members_.size() && clear_time_ >= limits.clear; ++place) {
@@ -329,7 +346,7 @@ bool Clusters::freeze(Real time) {
   const std::optional<RealVector> common =
       common_velocity(may_drift ? drift() : RealVector(0.0, 0.0), [&](const RealVector& velocity) {
         load_thrust(velocity);
-        return solver_.bears(loads_, puck_friction_, remaining);
+        return solver_.bears(loads_, spec_.puck_friction, remaining);
       });
   if (!common) return false;
   if (common->norm() <= Real(creep_speed)) jams_.stop(members_);

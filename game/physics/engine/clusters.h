@@ -11,6 +11,7 @@
 #include "game/physics/bodies/event_record.h"
 #include "game/physics/bodies/impact_history.h"
 #include "game/physics/bodies/jams.h"
+#include "game/physics/bodies/observers.h"
 #include "game/physics/bodies/partner.h"
 #include "game/physics/bodies/tolerances.h"
 #include "game/physics/contact/contact_problem.h"
@@ -33,6 +34,7 @@ class Clusters {
     Jams& jams;
     RestContacts& rests;
     EventRecord& record;
+    const Observers& observers;
   };
   Clusters(const WorldSpec& spec, const Uses& uses);
   Clusters(const Clusters&) = delete;
@@ -114,14 +116,15 @@ class Clusters {
   Real glancing_speed(Real thrust, Real pressing, Real speed) const;
   Real still_speed() const;
 
+  const WorldSpec& spec_;
   Bodies& bodies_;
   ContactDetection& detection_;
   ImpactHistory& history_;
   Jams& jams_;
   RestContacts& rests_;
   EventRecord& record_;
-  double puck_friction_;                        // m/s^2
-  Real contact_time_, glide_max_, rest_speed_;  // s, s, m/s
+  const Observers& observers_;
+  Real glide_max_, rest_speed_;  // s, m/s
   std::vector<std::uint32_t> members_;
   std::vector<std::uint32_t> places_;  // by body; of a member, where it is in `members_`
   ContactProblem problem_;             // theirs, in the same order

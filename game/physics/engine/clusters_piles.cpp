@@ -28,7 +28,7 @@ constexpr double one_body_glides = 1000.0;  // longest ones, before it is looked
 /// cluster is to be gathered anew.
 bool Clusters::flow(const Contact& c, Real time) {
   const Real gap = closing_max * rest_speed_ * glide_max_;
-  gather(c, {gap, infinity, pile_max, sight * gap, contact_time_}, time);
+  gather(c, {gap, infinity, pile_max, sight * gap, Real(spec_.contact_time)}, time);
   const Real thrust = thrust_max();
   if (!may_flow(thrust)) return false;
   for (std::size_t place = 0; place < members_.size(); ++place)
@@ -82,7 +82,8 @@ bool Clusters::meet_within_pile(const Contact& c, Real time) {
 }
 
 bool Clusters::may_flow(Real thrust) const {
-  return thrust > 0.0 && !bodies_.is_slowed() && has_turning() && clear_time_ >= contact_time_ &&
+  return thrust > 0.0 && !bodies_.is_slowed() && has_turning() &&
+         clear_time_ >= Real(spec_.contact_time) &&
          std::all_of(problem_.touches.begin(), problem_.touches.end(), [](const Touch& touch) {
            return touch.restitution < 1.0 && touch.gap > -overlap_max;
          });

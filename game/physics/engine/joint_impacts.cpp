@@ -65,7 +65,7 @@ void JointImpacts::record_dependencies(const Contact& c, Real time) {
 
 void JointImpacts::record_dependency() {
   if (observers_.journal == nullptr) return;
-  std::vector<std::uint32_t>& looked_at = observers_.journal->looked_at;
+  std::vector<std::uint32_t>& looked_at = observers_.journal->sight.looked_at;
   looked_at.insert(looked_at.end(), members_.begin(), members_.end());
 }
 
