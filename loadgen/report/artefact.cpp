@@ -16,6 +16,7 @@
 #include "loadgen/experiment/experiment_file.h"
 #include "loadgen/measure/formatted.h"
 #include "loadgen/measure/run_fields.h"
+#include "loadgen/mobility/trace_scene.h"
 
 namespace rink::loadgen {
 namespace {
@@ -89,6 +90,8 @@ void set_scene(Experiment& experiment, const std::string& scene) {
 void keep_inputs(const ResultsDirectory& results, const Experiment& experiment) {
   results.write("experiment.toml", experiment.text);
   results.write("scene.toml", game::scene_text(experiment.scene));
+  if (const auto trace = trace_file_of(experiment.scene))
+    results.write(kept_trace_name(*trace), text_in(*trace));
   std::vector<const Experiment*> all{&experiment};
   for (const Experiment& part : experiment.parts) all.push_back(&part);
   for (const Experiment* each : all)

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "loadgen/measure/truth/truth.h"
+#include "loadgen/mobility/trace_scene.h"
 #include "loadgen/report/artefact.h"
 #include "loadgen/run/run_journal.h"
 
@@ -20,7 +21,7 @@ std::size_t write_traces(const std::filesystem::path& folder) {
       continue;
     const game::ServerTrace server = game::read_server_trace(name + ".server.jsonl");
     const RelevanceArea area = relevance_of(part_of(experiment, run.cell.part), run.cell,
-                                            game::chosen_scene(server.choice));
+                                            played_scene(server.choice).scene);
     write_trace(name + ".truth.jsonl", server, game::read_bots_trace(name + ".bots.jsonl"), area);
     ++written;
   }

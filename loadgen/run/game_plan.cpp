@@ -10,7 +10,10 @@
 #include "game/control/playing.h"
 #include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
+#include "game/replication/update_policy.h"
+#include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/results.h"
+#include "loadgen/mobility/trace_scene.h"
 
 namespace rink::loadgen {
 namespace {
@@ -33,6 +36,43 @@ void expect_no_keys_among_nodes(const Experiment& experiment, const game::Scene&
   throw ExperimentError("experiment " + experiment.name + ": nodes: scene " + experiment.scene +
                         " has scripted keys, and nodes play those of their clients; allowed is one "
                         "without, such as arena");
+}
+
+/// Refuses what the agents of a trace cannot do, before cells run that would fail or be cut short.
+void expect_what_traces_can(const Experiment& experiment, const PlayedScene& played) {
+  const auto has = [](const auto& list, const auto& value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+  };
+  const auto refuse = [&experiment](const std::string& what) {
+    throw ExperimentError("experiment " + experiment.name + ": scene " + experiment.scene +
+                          " is a trace: " + what);
+  };
+  if (experiment.transport != TransportKind::virtual_time)
+    refuse("expected transport = \"virtual\", not " + std::string(to_string(experiment.transport)));
+  if (has(experiment.modes, peer_mode))
+    refuse(
+        "its agents move by no law that peers share: expected modes = "
+        "\"client-server\"");
+  if (has(experiment.policies, game::exact_policy))
+    refuse("no client can compute its agents: expected a policy other than exact");
+  if (experiment.players != "random" || experiment.keys == KeySource::live)
+    refuse("its agents press no keys: expected neither players nor keys");
+  if (experiment.start_s > 0.0)
+    refuse("expected start_s = 0; from_s of the population says where the run begins");
+  if (experiment.relevance == Relevance::contact)
+    refuse("its agents pass through each other: expected another relevance than contact");
+  const double end_s = experiment.end_s();
+  if (end_s > played.trace->end_s)
+    refuse(
+        "it goes on for " + shortest(played.trace->end_s) +
+        " s from where the run begins; allowed are as many of warm_up_s and duration_s together, "
+        "not " +
+        shortest(end_s));
+  const std::uint32_t most = *std::ranges::max_element(experiment.clients);
+  if (const std::uint32_t staying = played.staying_until(end_s); most > staying)
+    refuse("clients = " + std::to_string(most) + ", but of its " +
+           std::to_string(played.trace->agents.size()) + " agents " + std::to_string(staying) +
+           " are there for the whole run; allowed are as many clients");
 }
 
 /// Random players never look, so their keys need no game; players that look play it here, on its
@@ -80,7 +120,7 @@ game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell) {
 }
 
 game::Scene scene_of(const Experiment& experiment, const Cell& cell) {
-  return game::chosen_scene(choice_of(experiment, cell));
+  return played_scene(choice_of(experiment, cell)).scene;
 }
 
 void write_game_plan(const Experiment& experiment, const Cell& cell,
@@ -88,7 +128,9 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
   game::KeyLog log;
   game::Scene scene;
   try {
-    scene = scene_of(experiment, cell);
+    PlayedScene played = played_scene(choice_of(experiment, cell));
+    if (played.trace) expect_what_traces_can(experiment, played);
+    scene = std::move(played.scene);
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
     expect_no_keys_among_nodes(experiment, scene);
     if (scene.world.field.goal_width > 0.0 &&
@@ -99,7 +141,7 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
           experiment.scene +
           " has goals, which peers cannot share; allowed is one without, such as arena");
     log = game::key_log_for(scene);
-    log.events = keys_of(experiment, cell, scene);
+    if (!played.trace) log.events = keys_of(experiment, cell, scene);
   } catch (const game::SceneError& error) {
     throw ExperimentError(error.what());
   }

@@ -12,7 +12,8 @@ namespace rink::loadgen {
 /// The scene that the server of `cell` is started with.
 game::SceneChoice choice_of(const Experiment& experiment, const Cell& cell);
 
-/// The scene as the server of `cell` makes it from its arguments. Throws game::SceneError.
+/// The scene as the server of `cell` makes it from its arguments, or that of a trace. Throws
+/// game::SceneError.
 game::Scene scene_of(const Experiment& experiment, const Cell& cell);
 
 /// The file of the saved game from which the runs of `key_log`'s game begin, beside the log.
@@ -22,10 +23,11 @@ std::filesystem::path state_file_of(const std::filesystem::path& key_log);
 /// and for one that starts warm the game that they make of the scene by start_s to
 /// state_file_of(file): those of every bat of the scene if the population is fixed, one bat per
 /// client otherwise. Random keys are drawn; players who decide play the game here, on its true
-/// state; a recorded log is taken over; live players who decide leave an empty log. The same
-/// experiment and cell give the same bytes. Throws ExperimentError if the scene or a recorded log
-/// cannot be read or do not fit each other, or if the scene has fewer bats than the experiment's
-/// largest cell has clients; OutputError if `file` cannot be written.
+/// state; a recorded log is taken over; live players who decide leave an empty log, as do the
+/// agents of a trace. The same experiment and cell give the same bytes. Throws ExperimentError if
+/// the scene or a recorded log cannot be read or do not fit each other, if the scene has fewer bats
+/// than the experiment's largest cell has clients, or if it is a trace and the experiment asks for
+/// what traces have not; OutputError if `file` cannot be written.
 void write_game_plan(const Experiment& experiment, const Cell& cell,
                      const std::filesystem::path& file);
 

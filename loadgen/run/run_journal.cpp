@@ -4,15 +4,19 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <vector>
 
 #include "game/model/report_schema.h"
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
 #include "loadgen/measure/results.h"
 #include "loadgen/measure/run_fields.h"
+#include "loadgen/mobility/trace_scene.h"
 
 namespace rink::loadgen {
 namespace {
@@ -28,11 +32,22 @@ std::optional<JournalHead> head_of(const nlohmann::json& line) {
   return head;
 }
 
+/// A scene that is missing or faulty is refused where it is played.
+std::optional<std::filesystem::path> trace_of(const Experiment& experiment) {
+  try {
+    return trace_file_of(experiment.scene);
+  } catch (const game::SceneError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::string identity_of(const Experiment& experiment) {
   std::string all = experiment.text;
-  for (const std::string& file : {experiment.scene, experiment.players}) {
+  std::vector<std::string> files{experiment.scene, experiment.players};
+  if (const auto trace = trace_of(experiment)) files.push_back(trace->string());
+  for (const std::string& file : files) {
     std::ostringstream content;
     if (std::filesystem::is_regular_file(file))
       content << std::ifstream(file, std::ios::binary).rdbuf();

@@ -22,6 +22,8 @@
 #include "loadgen/measure/results.h"
 #include "loadgen/measure/tables/discovery_table.h"
 #include "loadgen/measure/truth/truth.h"
+#include "loadgen/mobility/trace_play.h"
+#include "loadgen/mobility/trace_scene.h"
 #include "loadgen/run/bots/bot_crowd.h"
 #include "loadgen/run/bots/bots_report.h"
 #include "loadgen/run/game_plan.h"
@@ -38,6 +40,7 @@ struct PlannedGame {
   const game::Scene& scene;
   const std::vector<game::InputEvent>& keys;
   const std::filesystem::path& state_file;
+  game::SharedPlay* trace;  ///< what moves the bats; null: the keys
 };
 
 class VirtualRun {
@@ -55,8 +58,7 @@ class VirtualRun {
   void end(Json& server_report);
 
  private:
-  game::ServerSettings server_settings(const game::Scene& scene,
-                                       const std::vector<game::InputEvent>& keys) const;
+  game::ServerSettings server_settings(const PlannedGame& game) const;
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
   double now_s() const { return network_.now_s(); }
@@ -68,12 +70,14 @@ class VirtualRun {
   void advance_until(std::int64_t until_ns);
   template <class Condition>
   void await(const std::string& what, Condition is_met);
+  void show_trace();
   void start();
   void play();
 
   const RunnerSettings& settings_;
   const Experiment& experiment_;
   const Cell& cell_;
+  const bool is_traced_;
   std::string state_file_;           ///< empty: the game begins with the scene
   std::vector<std::uint8_t> state_;  ///< its content
   rti::NetworkModel model_;
@@ -98,16 +102,16 @@ std::vector<std::uint8_t> state_in(const std::string& file, const game::Scene& s
 
 }  // namespace
 
-game::ServerSettings VirtualRun::server_settings(const game::Scene& scene,
-                                                 const std::vector<game::InputEvent>& keys) const {
+game::ServerSettings VirtualRun::server_settings(const PlannedGame& game) const {
   game::ServerSettings settings{.policy = cell_.policy,
                                 .threshold = cell_.parameters.threshold,
                                 .sweep_ticks = cell_.parameters.sweep_ticks,
                                 .tick_s = 1.0 / cell_.parameters.tick_rate_hz,
                                 .replay = {},
                                 .events_per_s = settings_.virtual_events_per_s};
-  if (experiment_.keys == KeySource::replay) settings.replay = keys;
-  settings.always_relevant = game::relevant_kinds_of(scene, experiment_.always);
+  if (experiment_.keys == KeySource::replay && !game.trace) settings.replay = game.keys;
+  settings.shared = game.trace;
+  settings.always_relevant = game::relevant_kinds_of(game.scene, experiment_.always);
   settings.state = state_;
   return settings;
 }
@@ -136,11 +140,12 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
     : settings_(settings),
       experiment_(experiment),
       cell_(cell),
+      is_traced_(game.trace != nullptr),
       state_file_(experiment.start_s > 0.0 ? game.state_file.string() : ""),
       state_(state_file_.empty() ? std::vector<std::uint8_t>() : state_in(state_file_, game.scene)),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(fom, game.scene, server_settings(game.scene, game.keys),
+      serving_(fom, game.scene, server_settings(game),
                game::federation_settings(game.scene, cell.scheme, cell.parameters.cell_size),
                {[this] { return now_s(); }, [this] { return simulated_now(); }}),
       server_(serving_.server()),
@@ -200,7 +205,20 @@ void VirtualRun::await(const std::string& what, Condition is_met) {
   }
 }
 
+/// Before anybody looks: all agents have an object, and those who are away are hidden.
+void VirtualRun::show_trace() {
+  await("the server", [this] {
+    if (!server_.is_joined()) return false;
+    const auto is_published = [this](const game::Entity& entity) {
+      return static_cast<bool>(server_.publisher().object(entity.id));
+    };
+    return std::ranges::all_of(server_.game().entities(), is_published);
+  });
+  server_.simulate(0.0);
+}
+
 void VirtualRun::start() {
+  if (is_traced_) show_trace();
   crowd_.connect([this](std::uint32_t) { return bots_end_.connect(server_name); });
   await("the players",
         [this] { return server_.is_joined() && server_.seats().player_count() == cell_.clients; });
@@ -219,6 +237,7 @@ void VirtualRun::play() {
   const double rate_hz = cell_.parameters.tick_rate_hz,
                played_s = experiment_.warm_up_s + experiment_.duration_s;
   const auto last = static_cast<std::uint64_t>(std::floor(played_s * rate_hz + 1e-9));
+  if (is_traced_) crowd_.start(1e-9 * static_cast<double>(start_ns_));
   for (std::uint64_t number = 0; number <= last; ++number) {
     settings_.heed_interrupt();
     const double simulated_s = static_cast<double>(number) / rate_hz;
@@ -313,10 +332,14 @@ void VirtualRun::end(Json& server_report) {
 void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,
          const std::filesystem::path& key_log, RunRecord& record) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
-  const game::Scene scene = scene_of(experiment, cell);
-  VirtualRun run(
-      settings, experiment, cell, fom,
-      {.scene = scene, .keys = keys_in(key_log, scene), .state_file = state_file_of(key_log)});
+  PlayedScene played = played_scene(choice_of(experiment, cell));
+  std::optional<TracePlay> trace;
+  if (played.trace) trace.emplace(*std::move(played.trace));
+  VirtualRun run(settings, experiment, cell, fom,
+                 {.scene = played.scene,
+                  .keys = keys_in(key_log, played.scene),
+                  .state_file = state_file_of(key_log),
+                  .trace = trace ? &*trace : nullptr});
   run.run();
   Json server = run.server_report();
   const Json bots = run.bots_report();

@@ -32,7 +32,8 @@ void FilterRelevance::look_around(const game::Game& game, Centres centres) {
   for (std::uint32_t entity = 0; entity < are_there_.size(); ++entity)
     if (are_there_[entity] && (entity >= centres.size() || !centres[entity])) forget(entity);
   for (const game::Entity& entity : game.entities()) {
-    assert(entity.id.index < centres.size() && centres[entity.id.index]);
+    assert(entity.id.index < centres.size());
+    if (!centres[entity.id.index]) continue;  // an agent that is away
     take_in(entity, game, *centres[entity.id.index]);
     if (entity.player && (looks_back() || relevant_[entity.id.index]))
       subscribe(entity, game, *centres[entity.id.index]);

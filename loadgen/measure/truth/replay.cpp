@@ -16,18 +16,20 @@
 namespace rink::loadgen {
 
 Replay::Replay(const game::ServerTrace& trace, const RelevanceArea& area)
-    : Replay(game::chosen_scene(trace.choice), trace, area) {}
+    : Replay(played_scene(trace.choice), trace, area) {}
 
-Replay::Replay(const game::Scene& scene, const game::ServerTrace& trace, const RelevanceArea& area)
-    : game_(trace.state_file.empty() ? game::Game(scene)
-                                     : game::game_in_state(trace.state, scene, trace.state_file)),
+Replay::Replay(PlayedScene played, const game::ServerTrace& trace, const RelevanceArea& area)
+    : game_(trace.state_file.empty()
+                ? game::Game(played.scene)
+                : game::game_in_state(trace.state, played.scene, trace.state_file)),
       begin_s_(game_.now()),
       area_(area),
-      surroundings_(area, scene.world.field.length, scene.world.field.width),
-      puck_reach_(area.contact_s, scene.world.puck_drag, scene.world.puck_friction),
-      bat_reach_(area.contact_s, scene.world.bat_drag, 0.0),
-      encounters_(scene.world.field.length, scene.world.field.width),
+      surroundings_(area, played.scene.world.field.length, played.scene.world.field.width),
+      puck_reach_(area.contact_s, played.scene.world.puck_drag, played.scene.world.puck_friction),
+      bat_reach_(area.contact_s, played.scene.world.bat_drag, 0.0),
+      encounters_(played.scene.world.field.length, played.scene.world.field.width),
       rate_hz_(trace.rate_hz) {
+  const game::Scene& scene = played.scene;
   for (const game::Bat& bat : scene.bodies.bats)
     acceleration_max_.push_back(std::numbers::sqrt2 * bat.thrust);  // two neighbouring keys
   if (area.shape == RelevanceArea::Shape::filter) filter_.emplace(area, scene);
@@ -44,10 +46,15 @@ Replay::Replay(const game::Scene& scene, const game::ServerTrace& trace, const R
   }
   for (const game::ServerTrace::Naming& naming : trace.objects)
     entities_[naming.object] = naming.body;
+  if (!played.trace) return;
+  follower_.emplace(*std::move(played.trace));
+  follower_->show(begin_s_, game_);
 }
 
 void Replay::advance(double instant_s) {
-  if (instant_s > game_.now()) game_.advance(instant_s);
+  if (!(instant_s > game_.now())) return;
+  if (follower_) follower_->show(instant_s, game_);
+  else game_.advance(instant_s);
 }
 
 void Replay::look_around() {
@@ -55,6 +62,7 @@ void Replay::look_around() {
   around_.assign(is_of_contact() ? centres_.size() : 0, 0.0);
   placed_.clear(), reaching_.clear();
   for (const game::Entity& entity : game_.entities()) {
+    if (follower_ && !follower_->is_there(*entity.player)) continue;
     const Vector2 centre = announced_centre(entity.id);
     centres_[entity.id.index] = centre;
     if (filter_) continue;
@@ -121,7 +129,9 @@ void Replay::find(std::uint32_t own, std::vector<Relevant>& found) {
   const game::Team team = game_.entity({own}).team;
   const std::size_t near = found.size();
   for (const game::Entity& each : game_.entities()) {
-    if (each.id.index == own || !is_relevant_anywhere(area_, team, each.kind, each.team)) continue;
+    if (each.id.index == own || !is_there(each.id.index) ||
+        !is_relevant_anywhere(area_, team, each.kind, each.team))
+      continue;
     const auto end = found.begin() + static_cast<std::ptrdiff_t>(near);
     const auto place =
         std::lower_bound(found.begin(), end, each.id.index,

@@ -15,6 +15,8 @@
 #include "loadgen/measure/truth/filter_relevance.h"
 #include "loadgen/measure/truth/reach.h"
 #include "loadgen/measure/truth/surroundings.h"
+#include "loadgen/mobility/trace_follower.h"
+#include "loadgen/mobility/trace_scene.h"
 
 namespace rink::loadgen {
 
@@ -78,7 +80,7 @@ class Replay {
     Vector2 centre;                 ///< where it left play
     std::optional<double> until_s;  ///< the first tick after it was put back, once it was
   };
-  Replay(const game::Scene& scene, const game::ServerTrace& trace, const RelevanceArea& area);
+  Replay(PlayedScene played, const game::ServerTrace& trace, const RelevanceArea& area);
   Vector2 announced_centre(game::EntityId entity);
   double reach(const game::Entity& entity) const;
   std::optional<double> depth_before(std::uint32_t a, std::uint32_t b) const;
@@ -87,6 +89,7 @@ class Replay {
   bool is_of_contact() const { return area_.shape == RelevanceArea::Shape::contact; }
 
   game::Game game_;
+  std::optional<TraceFollower> follower_;  ///< of a scene that is a trace
   double begin_s_;
   RelevanceArea area_;
   Surroundings surroundings_;

@@ -11,6 +11,7 @@
 #include "loadgen/measure/truth/classification.h"
 #include "loadgen/measure/truth/replay_judgement.h"
 #include "loadgen/measure/truth/trace.h"
+#include "loadgen/mobility/trace_scene.h"
 
 namespace rink::loadgen {
 
@@ -57,7 +58,7 @@ void judge(RunRecord& record, const Experiment& experiment, const game::ServerTr
            const game::BotsTrace& bots, Discoveries* discoveries) {
   const Entries entries = discoveries ? Entries::found : Entries::passed_over;
   const RelevanceArea area =
-      relevance_of(experiment, record.cell, game::chosen_scene(server.choice));
+      relevance_of(experiment, record.cell, played_scene(server.choice).scene);
   TruthFigures figures = truth_of(server, bots, area, discoveries, entries);
   figures.control_bytes_fraction = record.truth.control_bytes_fraction;
   figures.fairness_jain = record.truth.fairness_jain;
@@ -108,7 +109,7 @@ void add_truth(RunRecord& record, const Experiment& experiment, const std::strin
   record_error(record, [&] {
     const game::ServerTrace server = game::read_server_trace(server_file);
     record.truth.relevance =
-        text_of(relevance_of(experiment, record.cell, game::chosen_scene(server.choice)));
+        text_of(relevance_of(experiment, record.cell, played_scene(server.choice).scene));
     add_tick_costs(record, server);
     const game::BotsTrace bots = game::read_bots_trace(bots_file);
     Discoveries found;

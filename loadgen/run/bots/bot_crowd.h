@@ -64,6 +64,11 @@ class BotCrowd : public rti::TransportListener {
   /// nothing if it only waits. Heartbeats, which are not urgent, are left out.
   std::optional<double> next_due_s() const;
 
+  /// Simulated time 0 is `origin_s` on the clock; bots learn that from the first update otherwise,
+  /// which a game in which little happens may send late.
+  void start(double origin_s) {
+    if (!has_started()) start_clock(origin_s, settings_.start_s);
+  }
   bool has_started() const { return clock_.has_started(); }
   /// True when the duration has passed, or when no bot is left.
   bool is_over() const { return meter_.has_ended() || crowd_.are_all_lost(); }
