@@ -196,8 +196,8 @@ void add_options(Flags& flags, PeerOptions& options) {
   flags
       .option(
           "--patience", options.patience_s,
-          "how long a peer whose message is due may be silent, and both players of a match stay "
-          "away [s]")
+          "how long a peer whose message is due may be silent, and how long a match waits for its "
+          "two players to come [s]")
       .check(number_from(0.1, seconds_max))
       .shows_default();
   flags.footer(

@@ -180,8 +180,8 @@ bool is_match(const PeerOptions& options, const SharedGame& shared) {
 
 void require_match_options(const PeerOptions& options) {
   if (!options.terms.interest.scheme.empty() || options.terms.is_seated ||
-      !options.viewing.trace.empty())
-    throw std::invalid_argument("--scheme, --seated, --evidence: in a match, scene '" +
+      !options.viewing.trace.empty() || !options.viewing.always.empty())
+    throw std::invalid_argument("--scheme, --always, --seated, --evidence: in a match, scene '" +
                                 options.scene +
                                 "', every peer has all bodies: expected none of these");
 }

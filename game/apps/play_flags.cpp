@@ -19,7 +19,7 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
   const auto peer = flags
                         .option("--peer", options.peer,
                                 "be one of the peers that share a game: HOST:PORT of any "
-                                "running one, a rink play or, unless it is a match, a rink peer")
+                                "running one, a rink play or a rink peer")
                         .value_name("HOST:PORT")
                         .group(group);
   const auto listen = flags

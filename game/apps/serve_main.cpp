@@ -216,7 +216,9 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (is_node(options)) shared.emplace(played.scene, std::vector<InputEvent>{});
   ThreadTeam team(options.threads);
   played.scene.world.slabs = physics::SlabPlan{.workers = &team};
-  rti::ensure_file_limit(options.clients + 64u);
+  constexpr std::uint32_t bundles = 960;  // of clients that share sockets; more wait to be accepted
+  rti::ensure_file_limit(
+      64u + (options.transport == "bundle" ? std::min(options.clients, bundles) : options.clients));
   const std::unique_ptr<Meeting> meeting = meeting_of(options, command);
   std::string served_at;  // known before anybody plays
   const std::unique_ptr<Node> node =

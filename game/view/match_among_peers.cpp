@@ -39,7 +39,8 @@ void MatchAmongPeers::advance(double now_s) {
 }
 
 void MatchAmongPeers::hear(const std::string& line) {
-  if (const std::string place = rest_of(line, "listening on "); !place.empty()) join(place);
+  if (const std::string place = rest_of(line, "listening on "); !place.empty() && !match_)
+    join(place);
   const std::string news = rest_of(line, "rink-serve: ");
   if (news.empty()) return;
   notice_ = news, notice_s_ = now_s_;

@@ -75,6 +75,7 @@ std::size_t files_needed(const Experiment& experiment) {
   for (const Experiment& part : experiment.parts) needed = std::max(needed, files_needed(part));
   if (!experiment.parts.empty() || experiment.transport == TransportKind::virtual_time)
     return needed;
+  if (experiment.transport == TransportKind::bundle) return experiment.bundles + needed;
   return *std::max_element(experiment.clients.begin(), experiment.clients.end()) +
          files_besides_clients;
 }

@@ -14,6 +14,7 @@ namespace rink::rti {
 namespace {
 
 constexpr std::size_t size_max = 0xfffffffe;  ///< of one record
+constexpr std::size_t counters_kept = 1024;   ///< of closed connections
 
 void append(std::vector<std::byte>& to, Bytes bytes) {
   if (bytes.empty()) return;
@@ -30,15 +31,15 @@ BundledTransport::Trunk& BundledTransport::trunk(ConnectionId id) {
 }
 
 BundledTransport::Channel* BundledTransport::find(ConnectionId connection) {
-  return connection < channels_.size() && !channels_[connection].is_closed ? &channels_[connection]
-                                                                           : nullptr;
+  Channel* channel = connection < channels_.size() ? channels_[connection].get() : nullptr;
+  return channel != nullptr && !channel->is_closed ? channel : nullptr;
 }
 
 ConnectionId BundledTransport::add(ConnectionId trunk_id) {
   Trunk& carrying = trunk(trunk_id);
   const auto connection = static_cast<ConnectionId>(channels_.size());
-  channels_.push_back(
-      {.trunk = trunk_id, .number = static_cast<std::uint32_t>(carrying.channels.size())});
+  channels_.push_back(std::make_unique<Channel>(
+      Channel{.trunk = trunk_id, .number = static_cast<std::uint32_t>(carrying.channels.size())}));
   carrying.channels.push_back(connection);
   ++carrying.channels_left;
   return connection;
@@ -52,7 +53,7 @@ ConnectionId BundledTransport::connect(ConnectionId trunk_id) {
     end(connection, CloseReason::closed_by_peer, "its trunk was closed before");
     return connection;
   }
-  write_header(trunk_id, channels_[connection].number, opens);
+  write_header(trunk_id, channels_[connection]->number, opens);
   if (carrying.is_open) news_.push_back({connection, true, {}, {}});
   return connection;
 }
@@ -75,6 +76,7 @@ void BundledTransport::send(ConnectionId connection, std::span<const Bytes> part
   if (channel == nullptr || size == 0 || size > size_max) return;
   ++channel->counters.writes;
   channel->counters.segments_sent += (size + 1447) / 1448;
+  if (channel->counters.bytes_sent == 0) ++trunks_[channel->trunk].channels_told;
   channel->counters.bytes_sent += size;
   write_header(channel->trunk, channel->number, static_cast<std::uint32_t>(size + 1));
   Trunk& carrying = trunks_[channel->trunk];
@@ -89,8 +91,9 @@ void BundledTransport::send_gathered(ConnectionId trunk_id) {
   const Bytes bytes = gathered;
   carrier_.send(trunk_id, std::span(&bytes, 1));
   gathered.clear();
-  const std::size_t channels = std::max<std::size_t>(1, trunks_[trunk_id].channels_left);
-  if (carrier_.queued_bytes(trunk_id) / channels <= queue_max) return;
+  const std::size_t channels = std::max<std::size_t>(1, trunks_[trunk_id].channels_told),
+                    queued = carrier_.queued_bytes(trunk_id);
+  if (queued <= trunk_queue_max && queued / channels <= queue_max) return;
   carrier_.close(trunk_id);
   end_all(trunk_id, CloseReason::queue_full,
           "its bundle did not read: more than " + std::to_string(queue_max) +
@@ -110,23 +113,33 @@ void BundledTransport::close(ConnectionId connection) {
 }
 
 void BundledTransport::end(ConnectionId connection, CloseReason reason, const std::string& detail) {
-  assert(!channels_[connection].is_closed);  // its end is reported once
-  channels_[connection].is_closed = true;
-  assert(trunks_[channels_[connection].trunk].channels_left > 0);
-  --trunks_[channels_[connection].trunk].channels_left;
+  Channel& channel = *channels_[connection];
+  assert(!channel.is_closed);  // its end is reported once
+  channel.is_closed = true;
+  Trunk& carrying = trunks_[channel.trunk];
+  assert(carrying.channels_left > 0);
+  if (--carrying.channels_left == 0) carrying.idle_since = std::chrono::steady_clock::now();
+  if (channel.counters.bytes_sent > 0) --carrying.channels_told;
   news_.push_back({connection, false, reason, detail});
 }
 
 std::size_t BundledTransport::queued_bytes(ConnectionId connection) const {
-  if (connection >= channels_.size() || channels_[connection].is_closed) return 0;
-  const ConnectionId trunk_id = channels_[connection].trunk;
+  if (connection >= channels_.size() || !channels_[connection] || channels_[connection]->is_closed)
+    return 0;
+  const ConnectionId trunk_id = channels_[connection]->trunk;
   const Trunk& trunk = trunks_[trunk_id];
-  return (carrier_.queued_bytes(trunk_id) + trunk.gathered.size()) / trunk.channels_left;
+  return (carrier_.queued_bytes(trunk_id) + trunk.gathered.size()) /
+         std::max<std::size_t>(1, trunk.channels_told);
 }
 
 TransportCounters BundledTransport::counters(ConnectionId connection) const {
   if (connection >= channels_.size()) return {};
-  TransportCounters counters = channels_[connection].counters;
+  if (!channels_[connection]) {
+    const auto at =
+        std::ranges::find(last_counters_, connection, [](const auto& each) { return each.first; });
+    return at == last_counters_.end() ? TransportCounters{} : at->second;
+  }
+  TransportCounters counters = channels_[connection]->counters;
   counters.queued_bytes = queued_bytes(connection);
   return counters;
 }
@@ -138,20 +151,24 @@ void BundledTransport::check() const {
     assert(!each.is_closed || each.gathered.empty());
     assert(each.header_size < sizeof each.header);
     assert(each.left == 0 || each.number < each.channels.size());
-    assert(each.channels_left ==
-           static_cast<std::size_t>(std::ranges::count_if(
-               each.channels, [this](ConnectionId id) { return !channels_[id].is_closed; })));
+    [[maybe_unused]] std::size_t left = 0, told = 0;
+    for (const ConnectionId connection : each.channels) {
+      const Channel* channel = channels_[connection].get();
+      if (channel == nullptr || channel->is_closed) continue;
+      ++left, told += channel->counters.bytes_sent > 0 ? 1 : 0;
+    }
+    assert(each.channels_left == left && each.channels_told == told);
   }
   for (ConnectionId connection = 0; connection < channels_.size(); ++connection) {
-    [[maybe_unused]] const Channel& channel = channels_[connection];
-    assert(channel.trunk < trunks_.size());
-    assert(channel.number < trunks_[channel.trunk].channels.size());
-    assert(trunks_[channel.trunk].channels[channel.number] == connection);
+    [[maybe_unused]] const Channel* channel = channels_[connection].get();
+    if (channel == nullptr || trunks_[channel->trunk].is_closed) continue;
+    assert(trunks_[channel->trunk].channels[channel->number] == connection);
   }
 }
 
 void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   listener_ = &listener;
+  close_idle_trunks();
   push();
   report();
   carrier_.poll(telling_.empty() && news_.empty() ? longest_wait : std::chrono::nanoseconds(0),
@@ -162,18 +179,35 @@ void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
   if constexpr (checks_whole_structures) check();
 }
 
+/// Nobody but a trunk's channels is reported, so nobody else can tell that a peer holds a socket
+/// for nothing.
+void BundledTransport::close_idle_trunks() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - looked_for_idle_ < std::chrono::seconds(1)) return;
+  looked_for_idle_ = now;
+  for (ConnectionId id = 0; id < trunks_.size(); ++id) {
+    const Trunk& each = trunks_[id];
+    if (each.is_open && !each.is_closed && !each.is_ours && each.channels_left == 0 &&
+        now - each.idle_since > idle_max)
+      carrier_.close(id);
+  }
+}
+
 /// Leaves the reported events in `telling_`, so that a poll knows that it has reported any.
 void BundledTransport::report() {
   while (!news_.empty()) {
     telling_.swap(news_);
     news_.clear();
     for (const News& each : telling_) {
-      Channel& channel = channels_[each.connection];
       if (each.is_open) {
-        if (channel.is_closed || channel.is_open) continue;
-        channel.is_open = true;
+        Channel* channel = find(each.connection);
+        if (channel == nullptr || channel->is_open) continue;
+        channel->is_open = true;
         listener_->on_open(each.connection);
       } else {
+        last_counters_.emplace_back(each.connection, channels_[each.connection]->counters);
+        if (last_counters_.size() > counters_kept) last_counters_.pop_front();
+        channels_[each.connection].reset();
         listener_->on_close(each.connection, each.reason, each.detail);
       }
     }
@@ -183,6 +217,7 @@ void BundledTransport::report() {
 void BundledTransport::on_open(ConnectionId trunk_id) {
   Trunk& opened = trunk(trunk_id);
   opened.is_open = true;
+  opened.idle_since = std::chrono::steady_clock::now();
   for (const ConnectionId connection : opened.channels) news_.push_back({connection, true, {}, {}});
   report();
 }
@@ -258,6 +293,7 @@ void BundledTransport::end_all(ConnectionId trunk_id, CloseReason reason,
   closed.gathered = {};
   for (const ConnectionId connection : closed.channels)
     if (find(connection) != nullptr) end(connection, reason, detail);
+  closed.channels = {};
 }
 
 }  // namespace rink::rti

@@ -2,7 +2,12 @@
 // one system call serves them all.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "rti/transport/transport.h"
@@ -24,8 +29,11 @@ class BundledTransport final : public Transport, private TransportListener {
   static constexpr std::size_t gathered_max =
       1u << 16;  ///< bytes gathered before they are sent at once
   static constexpr std::size_t queue_max =
-      1u << 20;  ///< bytes queued for each open channel of a trunk whose peer doesn't read, before
-                 ///< the trunk is closed
+      1u << 20;  ///< bytes queued for each channel in use of a trunk whose peer doesn't read,
+                 ///< before the trunk is closed
+  static constexpr std::size_t trunk_queue_max = 1u << 30;  ///< and for all together
+  /// How long a peer's trunk may be without a channel before it is closed.
+  static constexpr std::chrono::seconds idle_max{5};
 
   /// `carrier` must outlive it, and is polled by it alone. Its own limit of a queue should be that
   /// of many channels.
@@ -34,9 +42,10 @@ class BundledTransport final : public Transport, private TransportListener {
   /// A connection over `trunk`, one of the carrier's, which may still be opening; `on_open` follows
   /// in a poll, or `on_close` with the trunk's reason.
   ConnectionId connect(ConnectionId trunk);
-  /// Of a trunk that this end connected.
-  bool is_closed(ConnectionId trunk) const {
-    return trunk < trunks_.size() && trunks_[trunk].is_closed;
+  /// Whether one more connection can be made over `trunk`, which this end connected.
+  bool takes_more(ConnectionId trunk) const {
+    return trunk >= trunks_.size() ||
+           (!trunks_[trunk].is_closed && trunks_[trunk].channels.size() < channel_max);
   }
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
@@ -63,7 +72,9 @@ class BundledTransport final : public Transport, private TransportListener {
     bool is_open = false, is_closed = false,
          is_ours = false;                ///< this end connected it, and numbers and opens channels
     std::vector<ConnectionId> channels;  ///< by number
-    std::size_t channels_left = 0;       ///< of these, not closed yet
+    std::size_t channels_left = 0,       ///< of these, not closed yet
+        channels_told = 0;               ///< and of those, have been sent something
+    std::chrono::steady_clock::time_point idle_since{};  ///< without a channel
     std::vector<std::byte> gathered;
     std::byte header[2 * head_number_max] = {};
     std::size_t header_size = 0, numbers_read = 0;  ///< bytes and whole numbers of it received
@@ -92,12 +103,16 @@ class BundledTransport final : public Transport, private TransportListener {
   void end(ConnectionId connection, CloseReason reason, const std::string& detail);
   void end_all(ConnectionId trunk_id, CloseReason reason, const std::string& detail);
   void report();
+  void close_idle_trunks();
 
   Transport& carrier_;
-  std::vector<Trunk> trunks_;       ///< by the carrier's connection
-  std::vector<Channel> channels_;   ///< by connection
+  std::vector<Trunk> trunks_;                       ///< by the carrier's connection
+  std::vector<std::unique_ptr<Channel>> channels_;  ///< by connection; null once closed
+  std::deque<std::pair<ConnectionId, TransportCounters>>
+      last_counters_;               ///< of those that closed last
   std::vector<ConnectionId> full_;  ///< trunks with something gathered
   std::vector<News> news_, telling_;
+  std::chrono::steady_clock::time_point looked_for_idle_{};
   TransportListener* listener_ = nullptr;  ///< while polling
 };
 

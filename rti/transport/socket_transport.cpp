@@ -45,7 +45,7 @@ ConnectionId SocketTransport::Bundle::connect(const std::string& address, std::u
   const std::size_t turn = connected++ % trunks_max;
   if (turn >= trunks.size()) trunks.push_back(carrier.connect(address, port));
   ConnectionId& trunk = trunks[std::min(turn, trunks.size() - 1)];
-  if (bundled.is_closed(trunk)) trunk = carrier.connect(address, port);
+  if (!bundled.takes_more(trunk)) trunk = carrier.connect(address, port);
   return bundled.connect(trunk);
 }
 

@@ -33,7 +33,7 @@ inline bool are_same(const BodyState& a, const BodyState& b) {
 inline void expect_same(const Change& a, const Change& b) {
   ASSERT_TRUE(a.time == b.time && a.x == b.x && a.y == b.y && a.vx == b.vx && a.vy == b.vy &&
               a.since == b.since && a.conditions == b.conditions && a.body == b.body &&
-              a.event == b.event && a.motion == b.motion)
+              a.event == b.event && a.motion == b.motion && a.reach == b.reach)
       << a.time << ": body " << a.body << ", event " << a.event << "; " << b.time << ": body "
       << b.body << ", event " << b.event;
 }

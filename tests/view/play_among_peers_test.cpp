@@ -97,7 +97,12 @@ TEST_F(PlayAmongPeers, SharesAMatchThatEachRecordsHoweverItLeaves) {
   EXPECT_EQ(two.ending()->exit_status, 0) << two.stderr_tail();
   until([] { return false; }, 1s);
   ASSERT_EQ(kill(one.id(), SIGKILL), 0) << "its node ends by itself, and its record is there";
-  ASSERT_TRUE(until([&] { return std::filesystem::exists(file("first-records/match-1.keys")); }));
+  const std::string kept = file("first-records/match-1.keys");
+  ASSERT_TRUE(until([&] {
+    std::ifstream log(kept);
+    const std::string text{std::istreambuf_iterator<char>(log), {}};
+    return text.find("\nend ") != std::string::npos;  // it is written whole
+  }));
   for (const char* name : {"first", "second"})
     for (const std::uint32_t player : {0u, 1u})
       EXPECT_EQ(count_of(record(name), player), 2) << name << " " << player;

@@ -66,7 +66,11 @@ void enter_changes(Journal& journal, const Bodies& bodies, bool may_be_quiet) {
   assert(journal.rooms_of.size() == bodies.count());
   if (journal.sight.reach > 0.0)
     make_sorted_set(journal.sight.looked_at);  // by a pile and a joint impact
-  if (journal.parts != Journal::Parts::none) forget_later(journal, bodies);
+  if (journal.parts != Journal::Parts::none) {
+    // Who else a pile looked for may be where it flew to later, and only its own place tells.
+    if (journal.sight.reach > 0.0) journal.parts = Journal::Parts::unsure;
+    forget_later(journal, bodies);
+  }
   if (may_be_quiet && is_free_impact(journal, bodies)) {
     const std::uint32_t low = bodies.touched()[0], high = bodies.touched()[1];
     journal.enter_impact({low, bodies[low], conditions_of(bodies, low)},

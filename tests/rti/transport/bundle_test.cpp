@@ -1,7 +1,9 @@
 // What a peer may do with the channels of a bundle, and what it loses its trunk for.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "rti/transport/bundle.h"
 #include "tests/rti/rig.h"
@@ -42,6 +44,11 @@ struct BundleScene {
     }
     carrier.says(trunk, bytes);
     poll();
+  }
+  void say(ConnectionId connection) {
+    const std::vector<std::byte> some(10);
+    const Bytes part = some;
+    bundle.send(connection, std::span(&part, 1));
   }
   bool has_lost_its_trunk() const { return carrier.closed == std::vector{trunk}; }
 };
@@ -114,11 +121,13 @@ TEST(Bundle, WhatIsGatheredGoesAtOnceWhenItIsTooMuch) {
       << "the opening, and two records with their heads";
 }
 
-TEST(Bundle, WhatWaitsOnATrunkIsItsOpenChannelsInEvenParts) {
+TEST(Bundle, WhatWaitsOnATrunkIsThatOfChannelsInUseInEvenParts) {
   BundleScene scene;
   const ConnectionId first = scene.bundle.connect(trunk), second = scene.bundle.connect(trunk),
                      third = scene.bundle.connect(trunk);
+  scene.bundle.connect(trunk);
   scene.poll();
+  scene.say(first), scene.say(second), scene.say(third);
   scene.carrier.queued = 600;
   for (const ConnectionId each : {first, second, third})
     EXPECT_EQ(scene.bundle.queued_bytes(each), 200u);
@@ -132,20 +141,44 @@ TEST(Bundle, ATrunkThatIsNotReadIsClosedForWhatWaitsForEachOfItsChannels) {
   BundleScene scene;
   const ConnectionId first = scene.bundle.connect(trunk), second = scene.bundle.connect(trunk);
   scene.poll();
-  const std::vector<std::byte> some(10);
-  const Bytes part = some;
+  scene.bundle.connect(trunk);
+  scene.say(first), scene.say(second);
   scene.carrier.queued = 2 * BundledTransport::queue_max;
-  scene.bundle.send(first, std::span(&part, 1));
   scene.poll();
   EXPECT_FALSE(scene.has_lost_its_trunk());
   scene.carrier.queued += 2;
-  scene.bundle.send(second, std::span(&part, 1));
+  scene.say(second);
   scene.poll();
   EXPECT_TRUE(scene.has_lost_its_trunk());
   EXPECT_EQ(scene.ear.closed[first],
             "its bundle did not read: more than 1048576 bytes waited for each of 2");
   EXPECT_EQ(scene.ear.closed[first], scene.ear.closed[second]);
-  EXPECT_TRUE(scene.bundle.is_closed(trunk));
+  EXPECT_FALSE(scene.bundle.takes_more(trunk));
+}
+
+TEST(Bundle, AClosedChannelKeepsItsCountersAndNothingElse) {
+  BundleScene scene;
+  const ConnectionId ours = scene.bundle.connect(trunk);
+  scene.poll();
+  scene.say(ours);
+  scene.bundle.close(ours);
+  scene.poll();
+  EXPECT_EQ(scene.ear.closed.count(ours), 1u);
+  EXPECT_EQ(scene.bundle.counters(ours).bytes_sent, 10u);
+  EXPECT_EQ(scene.bundle.queued_bytes(ours), 0u);
+  scene.bundle.close(ours);
+  scene.say(ours);
+  scene.poll();
+  EXPECT_EQ(scene.bundle.counters(ours).bytes_sent, 10u);
+}
+
+TEST(Bundle, APeersTrunkWithoutChannelsIsClosedAfterAWhile) {
+  BundleScene scene;
+  scene.poll();
+  EXPECT_FALSE(scene.has_lost_its_trunk());
+  std::this_thread::sleep_for(BundledTransport::idle_max + std::chrono::milliseconds(1100));
+  scene.poll();
+  EXPECT_TRUE(scene.has_lost_its_trunk());
 }
 
 }  // namespace
