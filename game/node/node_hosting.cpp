@@ -46,10 +46,14 @@ void Node::host() try {
     recovery.finish_round();
     match_->end_session(outcome_.part.time, feed_->count(0));
     const Score& score = outcome_.part.score;
+    std::optional<Team> winner;
     if (std::max(score.left, score.right) >= game_.scene().rules.goals_to_win.value_or(0))
-      match_->note_won(score.left > score.right ? Team::left : Team::right, outcome_.part.time);
+      winner = score.left > score.right ? Team::left : Team::right;
+    if (winner) match_->note_won(*winner, outcome_.part.time);
     if (recovery.is_referee()) match_->follow_win();
-    if (is_one_match(terms())) return note_losses(recovery.members(), outcome_.part);
+    if (!is_one_match(terms())) continue;
+    match_->close(winner);
+    return note_losses(recovery.members(), outcome_.part);
   }
 } catch (const SessionError& error) {
   if (error.status() != ExitStatus::interrupted ||

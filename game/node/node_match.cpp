@@ -79,6 +79,12 @@ void NodeMatch::end_session(double until_s, std::uint64_t stretches) {
   sessions_.back().stretches = ended_stretches_ += stretches;
 }
 
+void NodeMatch::close(std::optional<Team> winner) {
+  const std::lock_guard lock(mutex_);
+  assert(!sessions_.empty() && sessions_.back().has_ended);
+  state_.phase = MatchPhase::over, state_.winner = winner;
+}
+
 void NodeMatch::take_part(std::uint32_t player, bool is_here, double now_s) {
   if (flow_.is_here(player) == is_here) return;
   if (is_here) flow_.enter(player, now_s);

@@ -53,6 +53,10 @@ class NodeMatch final : public SharedMatch {
   /// It came to `until_s` [s, simulated], in so many stretches.
   void end_session(double until_s, std::uint64_t stretches);
 
+  /// No match follows the session that has ended last, which nobody may have won: it is over here,
+  /// whatever the referee says.
+  void close(std::optional<Team> winner);
+
   /// A side has won the session's game at `time` [s, simulated]: the referee says so.
   void note_won(Team winner, double time) { won_ = Won{match_, winner, time}; }
 

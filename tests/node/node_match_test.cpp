@@ -100,6 +100,19 @@ TEST(NodeMatch, IsGivenUpWhenAPlayerStaysAway) {
   EXPECT_FALSE(nodes.first.is_given_up()) << "that is known";
 }
 
+TEST(NodeMatch, IsOverOnceNoneFollowsThoughNobodyHasWon) {
+  MatchOfTwo nodes;
+  for (const std::uint32_t player : {0u, 1u}) nodes.first.take_part(player, true, 0.0);
+  nodes.advance(0.0);
+  nodes.begin_session();
+  nodes.advance(1.0);
+  nodes.other.end_session(0.5, 30);
+  nodes.other.close(std::nullopt);
+  EXPECT_EQ(nodes.other.state().phase, MatchPhase::over);
+  EXPECT_EQ(nodes.other.state().winner, std::nullopt);
+  EXPECT_EQ(nodes.other.state().clock_simulated_s, 0.5) << "all of it is shown";
+}
+
 TEST(NodeMatch, FollowsNoSessionThatWasLeftOut) {
   NodeMatch other{FlowTimes{}};
   EXPECT_FALSE(other.follow({.state = {.winner = std::nullopt}, .session = 2}));
