@@ -17,6 +17,7 @@
 #include "game/model/system_reason.h"
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
+#include "im/basics/printable.h"
 
 namespace rink::game {
 namespace {
@@ -41,16 +42,6 @@ std::optional<Number> number_of(const std::string& text, Base... base) {
       std::from_chars(text.data(), text.data() + text.size(), number, base...);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return number;
-}
-
-/// For messages: the beginning of the text, without bytes that control a terminal.
-std::string printable(const std::string& text) {
-  constexpr std::size_t shown_max = 60;
-  std::string shown = text.substr(0, shown_max);
-  for (char& byte : shown)
-    if (static_cast<unsigned char>(byte) < 0x20 || static_cast<unsigned char>(byte) > 0x7e)
-      byte = '?';
-  return text.size() > shown_max ? shown + "..." : shown;
 }
 
 /// A checksum over lines with their ends.

@@ -16,6 +16,12 @@ void note_losses(const MatchMembers& members, PlayedPart& part) {
     if (members.is_lost(node)) part.lost.push_back(node);
 }
 
+/// The others have left, and a match has not its two players.
+bool is_alone(const MatchMembers& members, const NodeSeats& seats) {
+  return members.count() > 1 && members.left().size() == 1 &&
+         !(seats.is_taken(0) && seats.is_taken(1));
+}
+
 }  // namespace
 
 /// The referee decides nothing more that holds from a session's start once it has called all to it.
@@ -30,13 +36,18 @@ void Node::host() try {
   };
   for (;;) {
     const std::uint64_t next = NodeSeats::instant_of(match_->begun() + 1, 0);
-    wait_for([this, next, &recovery] {
+    bool is_deserted = false;  // and nobody can come to a node that has no place for players
+    wait_for([this, next, &recovery, &is_deserted] {
       recovery.members().look();
       if (match_->begins()) return true;
       decide_seats(next, clock_s());
+      is_deserted =
+          !settings_.players_place && match_->begun() > 0 && is_alone(recovery.members(), *seats_);
+      if (is_deserted) return true;
       if (recovery.is_referee() && match_->wants_session()) match_->call_session();
       return false;
     });
+    if (is_deserted) return note_losses(recovery.members(), outcome_.part);
     seats_->due(next);
     players_->begin_session(seats_->own());
     feed_->begin_session(end_of_window(terms(), 1));

@@ -124,6 +124,9 @@ struct Elsewhere {
 
 enum class RefusalKind : std::uint8_t { wrong_version, other, again };
 
+/// Of what others give as their reason, in messages [bytes].
+inline constexpr std::size_t reason_shown_max = 500;
+
 struct Refused {
   RefusalKind kind = RefusalKind::other;
   std::string reason;

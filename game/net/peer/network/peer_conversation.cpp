@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "im/basics/printable.h"
+
 namespace rink::game {
 
 namespace {
@@ -56,7 +58,8 @@ bool PeerConversation::take_farewell(rti::ConnectionId connection, PeerLink& lin
         link, ExitStatus::connection_lost,
         name_of(link) + " was interrupted" + (losses_.are_survived() ? "" : ", so all end"));
   if (farewell->kind == FarewellKind::trouble)
-    losses_.lose(link, ExitStatus::connection_lost, name_of(link) + " ended: " + farewell->reason);
+    losses_.lose(link, ExitStatus::connection_lost,
+                 name_of(link) + " ended: " + printable(farewell->reason, reason_shown_max));
   return true;
 }
 
@@ -64,7 +67,8 @@ bool PeerConversation::take_farewell(rti::ConnectionId connection, PeerLink& lin
 bool PeerConversation::be_sent_away(const PeerLink& link, const Frame& frame) {
   const auto refused = message_from<Refused>(frame.content);
   if (!refused || roster_.members().empty()) return false;
-  if (sent_away_.empty()) sent_away_ = name_of(link) + ": " + refused->reason;
+  if (sent_away_.empty())
+    sent_away_ = name_of(link) + ": " + printable(refused->reason, reason_shown_max);
   return true;
 }
 

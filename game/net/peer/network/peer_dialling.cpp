@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "im/basics/printable.h"
+
 namespace rink::game {
 
 namespace {
@@ -62,8 +64,9 @@ bool PeerDialling::handle(rti::ConnectionId connection, const Frame& frame) {
 bool PeerDialling::be_refused(rti::ConnectionId connection, const Frame& frame) {
   const auto refused = message_from<Refused>(frame.content);
   if (!refused) return false;
-  const std::string why = "the peer at " + links_.find(connection)->info.place.text() +
-                          " does not let this one in: " + refused->reason;
+  const std::string why =
+      "the peer at " + links_.find(connection)->info.place.text() +
+      " does not let this one in: " + printable(refused->reason, reason_shown_max);
   if (refused->kind == RefusalKind::again) {
     unanswered_ = why;
     may_ask_again_ = true;
