@@ -18,7 +18,8 @@ namespace rink::loadgen {
 struct TraceRules {
   double gap_s = 0.0;  ///< an agent without a point for longer was away [s]; 0: it went straight on
   std::optional<Vector2> field{};  ///< all points lie within [0, x] x [0, y] [m]; nothing: anywhere
-  std::size_t agents_max = 1'000'000, points_max = 50'000'000;
+  std::size_t agents_max = 250'000;  ///< of 262,144 regions that the RTI gives a federate
+  std::size_t points_max = 50'000'000;
 };
 
 /// Greatest speed of an agent [m/s]: a place that is reached faster is an error of the file.

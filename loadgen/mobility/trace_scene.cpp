@@ -200,7 +200,6 @@ game::Scene scene_of(const TraceSpec& spec, const MobilityTrace& trace) {
     bat.body.half_extent = spec.half_extent;
     scene.bodies.bats.push_back(std::move(bat));
   }
-  scene.placed = scene.bodies;
   return scene;
 }
 
