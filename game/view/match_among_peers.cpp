@@ -62,7 +62,7 @@ void MatchAmongPeers::show() {
   if (match_) sight_ = match_->sight();
   else sight_.notice = waiting_;
   if (host_.has_ended() && !(is_elsewhere_ && match_)) {
-    sight_.phase = Phase::lost;
+    sight_.phase = game::MatchPhase::lost;
     sight_.notice = notice_.empty() ? "the node of this match has ended" : notice_;
   } else if (match_ && !is_elsewhere_ && sight_.notice.empty() && now_s_ < notice_s_ + notice_s) {
     sight_.notice = notice_;
