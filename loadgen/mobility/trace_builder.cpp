@@ -78,7 +78,7 @@ void TraceBuilder::add(std::uint32_t number, const TracePoint& point, std::size_
     const double wait_s = point.time_s - last.time_s;
     if (rules_.gap_s > 0.0 && wait_s > rules_.gap_s) way = Way::away;
     const double speed = std::hypot(point.x - last.x, point.y - last.y) / wait_s;
-    if (way == Way::straight && !(speed <= agent_speed_max))
+    if (way == Way::straight && !(speed <= agent_speed_max * (1.0 + 1e-6)))  // times are rounded
       refuse(line, "agent " + agent.id + " comes at " + shortest(std::round(speed)) + " m/s from " +
                        last_of(agent, number) + ": allowed is " + shortest(agent_speed_max) +
                        " m/s, or in CSV a gap_s that says it was away");

@@ -7,8 +7,11 @@
 #include <functional>
 #include <map>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "game/model/random_stream.h"
+#include "game/model/scene.h"
 #include "game/physics/flight/exponential.h"
 
 namespace rink::loadgen {
@@ -77,6 +80,27 @@ class Walker {
   Agent agent_;
 };
 
+/// The agents that have been drawn. One has a point in a second at most, so it is early enough to
+/// count after each.
+class DrawnAgents {
+ public:
+  explicit DrawnAgents(const TraceModel& model) : model_(model) {}
+  void add(Agent agent) {
+    points_ += agent.points.size();
+    if (points_ > model_.points_max)
+      throw game::SceneError("model " + model_.name + ": more than " +
+                             std::to_string(model_.points_max) +
+                             " points: expected fewer agents, or a shorter duration_s");
+    agents_.push_back(std::move(agent));
+  }
+  std::vector<Agent> take() { return std::move(agents_); }
+
+ private:
+  const TraceModel& model_;
+  std::vector<Agent> agents_;
+  std::size_t points_ = 0;
+};
+
 Vector2 anywhere(RandomStream& random, double side) {
   const double x = random.uniform(0.0, side), y = random.uniform(0.0, side);
   return {x, y};
@@ -110,7 +134,7 @@ std::vector<Agent> hotspots(const TraceModel& model, RandomStream& random) {
         std::ranges::upper_bound(popular_below, drawn) - popular_below.begin(), spot_count - 1);
     return near(random, spots[static_cast<std::size_t>(spot)], model.side / 40.0, model.side);
   };
-  std::vector<Agent> agents;
+  DrawnAgents agents(model);
   for (std::uint32_t number = 0; number < model.count; ++number) {
     Walker walker(model, number, place());
     const double speed = walking_speed(random);
@@ -121,9 +145,9 @@ std::vector<Agent> hotspots(const TraceModel& model, RandomStream& random) {
       walker.go(target, (target - walker.place()).norm() / speed);
       walker.wait_until(walker.now_s() + pause_s(random, 2.0, 600.0));
     }
-    agents.push_back(walker.take());
+    agents.add(walker.take());
   }
-  return agents;
+  return agents.take();
 }
 
 /// A flash crowd grows, lasts and shrinks, in phases of linear change (Ari et al. 2003). It stands
@@ -134,7 +158,7 @@ std::vector<Agent> flash_crowd(const TraceModel& model, RandomStream& random) {
   const Vector2 event = 0.5 * Vector2(model.side, model.side);
   const double radius = std::min(
       0.5 * model.side, std::sqrt(part_coming * model.count * area_each / std::numbers::pi));
-  std::vector<Agent> agents;
+  DrawnAgents agents(model);
   for (std::uint32_t number = 0; number < model.count; ++number) {
     const Vector2 home = anywhere(random, model.side);
     Walker walker(model, number, home);
@@ -148,9 +172,9 @@ std::vector<Agent> flash_crowd(const TraceModel& model, RandomStream& random) {
       walker.wait_until(goes_s * model.duration_s);
       walker.go(home, takes_s);
     }
-    agents.push_back(walker.take());
+    agents.add(walker.take());
   }
-  return agents;
+  return agents.take();
 }
 
 /// A distance between home and work, of density (d + 1500 m)^-1.75 exp(-d / 400 km) up to `most`
@@ -167,7 +191,7 @@ double commute(RandomStream& random, double most) {
 /// Homes are anywhere, work is a commute away. Travel times are those of flight_time_s(). They go
 /// at a quarter of the time, and back at three quarters, with a standard deviation of 1/20: ours.
 std::vector<Agent> commuters(const TraceModel& model, RandomStream& random) {
-  std::vector<Agent> agents;
+  DrawnAgents agents(model);
   const double deviation_s = model.duration_s / 20.0;
   for (std::uint32_t number = 0; number < model.count; ++number) {
     const Vector2 home = anywhere(random, model.side);
@@ -183,9 +207,9 @@ std::vector<Agent> commuters(const TraceModel& model, RandomStream& random) {
     walker.go(work, takes_s);
     walker.wait_until(back_s);
     walker.go(home, takes_s);
-    agents.push_back(walker.take());
+    agents.add(walker.take());
   }
-  return agents;
+  return agents.take();
 }
 
 using Draw = std::vector<Agent> (*)(const TraceModel&, RandomStream&);

@@ -1,6 +1,7 @@
 // Mobility traces of any size, drawn from models of crowds (docs/scenes.md, "Traces").
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ struct TraceModel {
   double side = 0.0;  ///< m; 0: default_side(count)
   double duration_s = 600.0;
   std::uint64_t seed = 1;
+  std::size_t points_max = 50'000'000;  ///< of all agents
 };
 
 /// Of 25 m^2 per agent: 5 m times the square root of `count`.
@@ -27,7 +29,7 @@ double default_side(std::uint32_t count);
 std::vector<std::string> trace_models();
 
 /// The same model and seed give the same bits on every machine. `model.name` is known, `count` and
-/// `duration_s` are above 0 (asserted).
+/// `duration_s` are above 0 (asserted). Throws game::SceneError for more points than allowed.
 MobilityTrace drawn_trace(const TraceModel& model);
 
 /// Time that people take for a flight of `distance` [m]: 30.55 l^0.11 s below 500 m, else

@@ -146,6 +146,12 @@ void heed(const game::SceneChoice& choice, TraceSpec& spec) {
     model.side *= std::sqrt(static_cast<double>(choice.bats) / model.count),
         model.count = choice.bats;
   if (choice.bat_count > 0) model.count = choice.bat_count;
+  if (model.count > spec.rules.agents_max)
+    throw SceneError(choice.scene + ": " + std::to_string(model.count) + " agents: allowed are " +
+                     std::to_string(spec.rules.agents_max));
+  if (model.side > trace_span_max)
+    throw SceneError(choice.scene + ": a side of " + shortest(model.side) + " m: allowed is " +
+                     shortest(trace_span_max) + " m");
 }
 
 /// Time from the run's beginning, places from the corner of the field.

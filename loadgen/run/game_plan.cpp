@@ -39,7 +39,8 @@ void expect_no_keys_among_nodes(const Experiment& experiment, const game::Scene&
 }
 
 /// Refuses what the agents of a trace cannot do, before cells run that would fail or be cut short.
-void expect_what_traces_can(const Experiment& experiment, const PlayedScene& played) {
+void expect_what_traces_can(const Experiment& experiment, const Cell& of_game,
+                            const PlayedScene& played) {
   const auto has = [](const auto& list, const auto& value) {
     return std::find(list.begin(), list.end(), value) != list.end();
   };
@@ -68,7 +69,10 @@ void expect_what_traces_can(const Experiment& experiment, const PlayedScene& pla
         " s from where the run begins; allowed are as many of warm_up_s and duration_s together, "
         "not " +
         shortest(end_s));
-  const std::uint32_t most = *std::ranges::max_element(experiment.clients);
+  std::uint32_t most = of_game.clients;  // in all cells of this game
+  for (const Cell& cell : cells_of(experiment))
+    if (game_of(cell, experiment.population) == game_of(of_game, experiment.population))
+      most = std::max(most, cell.clients);
   if (const std::uint32_t staying = played.staying_until(end_s); most > staying)
     refuse("clients = " + std::to_string(most) + ", but of its " +
            std::to_string(played.trace->agents.size()) + " agents " + std::to_string(staying) +
@@ -129,7 +133,7 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
   game::Scene scene;
   try {
     PlayedScene played = played_scene(choice_of(experiment, cell));
-    if (played.trace) expect_what_traces_can(experiment, played);
+    if (played.trace) expect_what_traces_can(experiment, cell, played);
     scene = std::move(played.scene);
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
     expect_no_keys_among_nodes(experiment, scene);

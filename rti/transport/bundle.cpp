@@ -13,8 +13,8 @@ namespace rink::rti {
 
 namespace {
 
-constexpr std::size_t size_max = 0xfffffffe;  ///< of one record
-constexpr std::size_t counters_kept = 1024;   ///< of closed connections
+constexpr std::size_t record_size_max = 0xfffffffe;  ///< of one record
+constexpr std::size_t bundled_counters_kept = 1024;  ///< of closed connections
 
 void append(std::vector<std::byte>& to, Bytes bytes) {
   if (bytes.empty()) return;
@@ -73,7 +73,7 @@ void BundledTransport::send(ConnectionId connection, std::span<const Bytes> part
   Channel* channel = find(connection);
   std::size_t size = 0;
   for (const Bytes part : parts) size += part.size();
-  if (channel == nullptr || size == 0 || size > size_max) return;
+  if (channel == nullptr || size == 0 || size > record_size_max) return;
   ++channel->counters.writes;
   channel->counters.segments_sent += (size + 1447) / 1448;
   if (channel->counters.bytes_sent == 0) ++trunks_[channel->trunk].channels_told;
@@ -96,8 +96,10 @@ void BundledTransport::send_gathered(ConnectionId trunk_id) {
   if (queued <= trunk_queue_max && queued / channels <= queue_max) return;
   carrier_.close(trunk_id);
   end_all(trunk_id, CloseReason::queue_full,
-          "its bundle did not read: more than " + std::to_string(queue_max) +
-              " bytes waited for each of " + std::to_string(channels));
+          "its bundle did not read: more than " +
+              (queued > trunk_queue_max ? std::to_string(trunk_queue_max) + " bytes waited"
+                                        : std::to_string(queue_max) + " bytes waited for each of " +
+                                              std::to_string(channels)));
 }
 
 void BundledTransport::push() {
@@ -168,12 +170,12 @@ void BundledTransport::check() const {
 
 void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   listener_ = &listener;
-  close_idle_trunks();
   push();
   report();
   carrier_.poll(telling_.empty() && news_.empty() ? longest_wait : std::chrono::nanoseconds(0),
                 *this);
   report();
+  close_idle_trunks();
   telling_.clear();
   listener_ = nullptr;
   if constexpr (checks_whole_structures) check();
@@ -184,9 +186,12 @@ void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
 void BundledTransport::close_idle_trunks() {
   const auto now = std::chrono::steady_clock::now();
   if (now - looked_for_idle_ < std::chrono::seconds(1)) return;
+  // Nobody has looked meanwhile, and what has come may not be read yet.
+  const bool stood_still = now - looked_for_idle_ > idle_max / 2;
   looked_for_idle_ = now;
   for (ConnectionId id = 0; id < trunks_.size(); ++id) {
-    const Trunk& each = trunks_[id];
+    Trunk& each = trunks_[id];
+    if (stood_still) each.idle_since = now;
     if (each.is_open && !each.is_closed && !each.is_ours && each.channels_left == 0 &&
         now - each.idle_since > idle_max)
       carrier_.close(id);
@@ -206,7 +211,7 @@ void BundledTransport::report() {
         listener_->on_open(each.connection);
       } else {
         last_counters_.emplace_back(each.connection, channels_[each.connection]->counters);
-        if (last_counters_.size() > counters_kept) last_counters_.pop_front();
+        if (last_counters_.size() > bundled_counters_kept) last_counters_.pop_front();
         channels_[each.connection].reset();
         listener_->on_close(each.connection, each.reason, each.detail);
       }
@@ -261,7 +266,7 @@ bool BundledTransport::handle_header(ConnectionId trunk_id) {
   std::uint64_t number = 0, size = 0;
   const std::size_t number_size = get_varint(header, number);
   if (number_size == 0 || get_varint(header.subspan(number_size), size) == 0) return false;
-  if (size > size_max + 1) return false;
+  if (size > record_size_max + 1) return false;
   if (size == opens) {
     if (trunk.is_ours || number != trunk.channels.size() || number >= channel_max) return false;
     const ConnectionId connection = add(trunk_id);
@@ -294,6 +299,8 @@ void BundledTransport::end_all(ConnectionId trunk_id, CloseReason reason,
   for (const ConnectionId connection : closed.channels)
     if (find(connection) != nullptr) end(connection, reason, detail);
   closed.channels = {};
+  closed.number = closed.left = 0;
+  closed.header_size = closed.numbers_read = 0;
 }
 
 }  // namespace rink::rti

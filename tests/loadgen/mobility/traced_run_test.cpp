@@ -244,6 +244,27 @@ TEST_F(RefusedTrace, BeforeAnythingRuns) {
   EXPECT_THAT(refused([](Experiment& e) { e.pucks = {1}; }), HasSubstr("pucks = 0"));
 }
 
+TEST_F(RefusedTrace, OfAModelGoesByTheNumbersOfEachGame) {
+  write("walk.toml",
+        "[[population]]\nkind = \"trace\"\nmodel = \"hotspots\"\ncount = 10\nside = 1e6\n");
+  experiment_.population = Population::per_client;
+  experiment_.clients = {100};
+  experiment_.duration_s = 2.0;
+  EXPECT_THAT(refusal(), HasSubstr("a side of 31622"));
+  experiment_.clients = {4, 10};
+  EXPECT_EQ(refusal(), "no complaint");
+  experiment_.population = Population::fixed;
+  experiment_.clients = {4};
+  experiment_.bats = {300'000};
+  EXPECT_THAT(refusal(), HasSubstr("300000 agents: allowed are 250000"));
+}
+
+TEST_F(RefusedTrace, OfAModelWithMorePointsThanATraceMayHave) {
+  TraceModel model{.name = "hotspots", .count = 10, .side = 1.0, .duration_s = 1e4};
+  model.points_max = 100;
+  EXPECT_THROW(drawn_trace(model), game::SceneError);
+}
+
 TEST_F(RefusedTrace, FaultyScenesNameFileLineAndKey) {
   const auto refusal_of_scene = [this](const std::string& text) {
     write("walk.toml", text);

@@ -176,9 +176,29 @@ TEST(Bundle, APeersTrunkWithoutChannelsIsClosedAfterAWhile) {
   BundleScene scene;
   scene.poll();
   EXPECT_FALSE(scene.has_lost_its_trunk());
+  for (int i = 0; i < 5; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+    scene.poll();
+  }
+  EXPECT_TRUE(scene.has_lost_its_trunk());
+}
+
+TEST(Bundle, WhoStoodStillItselfGivesAPeersTrunkTimeAgain) {
+  BundleScene scene;
+  scene.poll();
   std::this_thread::sleep_for(BundledTransport::idle_max + std::chrono::milliseconds(1100));
   scene.poll();
-  EXPECT_TRUE(scene.has_lost_its_trunk());
+  EXPECT_FALSE(scene.has_lost_its_trunk());
+}
+
+TEST(Bundle, ATrunkMayEndWithinARecord) {
+  BundleScene scene;
+  scene.records({{0, BundledTransport::opens}, {0, 101}});
+  scene.bundle.close(scene.ear.opened.front());
+  scene.carrier.close(trunk);
+  scene.poll();
+  scene.poll();
+  EXPECT_EQ(scene.ear.closed.size(), 1u);
 }
 
 }  // namespace
