@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "im/basics/varint.h"
 #include "rti/transport/bundle.h"
 #include "tests/rti/rig.h"
 #include "tests/rti/transport/scripted_transport.h"
@@ -128,6 +129,7 @@ TEST(Bundle, WhatWaitsOnATrunkIsThatOfChannelsInUseInEvenParts) {
   scene.bundle.connect(trunk);
   scene.poll();
   scene.say(first), scene.say(second), scene.say(third);
+  scene.poll();
   scene.carrier.queued = 600;
   for (const ConnectionId each : {first, second, third})
     EXPECT_EQ(scene.bundle.queued_bytes(each), 200u);
