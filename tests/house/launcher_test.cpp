@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -208,6 +211,49 @@ TEST_F(Launcher, RunsThreeAreasWithTheFlagsOfTheBenchmarks) {
   EXPECT_THAT(calls_, ElementsAre("cmake --preset bench",
                                   "ninja -C ./build-bench test-physics test-im test-rti",
                                   runs + " -LE long -R ^(physics|im|rti)/"));
+}
+
+/// The programs of tests but those of the house, which are of no use under a sanitizer.
+std::multiset<std::string> programs_of_tests() {
+  static const std::regex definition(R"(^rink_tests\(([a-z-]+))");
+  std::multiset<std::string> programs;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/tests")) {
+    std::ifstream stream(entry.path() / "CMakeLists.txt");
+    for (std::string line; std::getline(stream, line);)
+      if (std::smatch match; std::regex_search(line, match, definition) && match[1] != "house")
+        programs.insert("test-" + match[1].str());
+  }
+  return programs;
+}
+
+TEST_F(Launcher, RunsAThirdOfTheProgramsOfTestsByTurns) {
+  stub("git", "echo $COMMITS");
+  std::multiset<std::string> sanitized, without_asserts;
+  for (const int commits : {300, 301, 302})
+    for (const std::string preset : {"asan", "ndebug"}) {
+      ASSERT_EQ(
+          run("test --preset " + preset + " --share -j 1", "COMMITS=" + std::to_string(commits)), 0)
+          << said_;
+      std::istringstream words(*(calls_.end() - 2));
+      std::string chosen, word;
+      words >> word >> word >> word;  // ninja -C FOLDER
+      while (words >> word) {
+        (preset == "asan" ? sanitized : without_asserts).insert(word);
+        chosen += (chosen.empty() ? "" : "|") + word.substr(std::string("test-").size());
+      }
+      EXPECT_THAT(calls_.back(), EndsWith(" -LE long -R ^(" + chosen + ")/ -j 1"));
+    }
+  EXPECT_EQ(sanitized, programs_of_tests());
+  EXPECT_THAT(without_asserts,
+              testing::UnorderedElementsAre("test-physics", "test-im", "test-rti"));
+}
+
+TEST_F(Launcher, RefusesAShareOfWhatIsNotShared) {
+  for (const char* arguments : {"test --share", "test --preset tsan --share"}) {
+    EXPECT_EQ(run(arguments), 2);
+    EXPECT_THAT(said_, HasSubstr("--share goes with --preset asan or ndebug, not"));
+    EXPECT_THAT(calls_, testing::Each(HasSubstr("git"))) << "nothing was built";
+  }
 }
 
 TEST_F(Launcher, SaysItsVersionWithoutBuilding) {
