@@ -94,10 +94,9 @@ void add_options(Flags& flags, PeerOptions& options) {
       "bodies in its part of the field, and all together compute, bit for bit, what\n"
       "one engine does. The first one sets how many begin and how long they play; all others join "
       "through any running one, before the start or during the game. In the\n"
-      "end each prints its report and the hash of the whole, which is that of rink simulate. A "
-      "match, "
-      "such as the scene match, each plays whole, to its end or --until; rink play --peer joins "
-      "it.");
+      "end each prints its report and the hash of the whole, which is that of rink simulate.\n"
+      "A match, such as the scene match, each plays whole, to its end or --until; rink play --peer "
+      "joins it, and --record and --report then hold its last match alone.");
   flags.name("rink peer");
   flags.option("--scene", options.scene, "a scene file or the name of a preset; the same for all")
       .is_required();

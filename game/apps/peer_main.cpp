@@ -184,6 +184,14 @@ void require_match_options(const PeerOptions& options) {
     throw std::invalid_argument("--scheme, --always, --seated, --evidence: in a match, scene '" +
                                 options.scene +
                                 "', every peer has all bodies: expected none of these");
+  for (const std::string& flag : options.given)
+    if (flag != "--peers" && flag != "--pace")
+      throw std::invalid_argument(flag + ": in a match, scene '" + options.scene +
+                                  "', every peer has all bodies: expected no " + flag);
+  if (options.pace != "realtime" && options.given.count("--pace") != 0)
+    throw std::invalid_argument("--pace: a match, scene '" + options.scene +
+                                "', goes by the clock: expected realtime, not '" + options.pace +
+                                "'");
 }
 
 std::unique_ptr<Meeting> meeting_of_match(const PeerOptions& options) {
@@ -325,7 +333,8 @@ int main(int count, char** words) {
   return run_command(flags, count, words,
                      {.run =
                           [&] {
-                            options.says_peers = flags.is_given("--peers");
+                            for (const char* flag : flags_of_some)
+                              if (flags.is_given(flag)) options.given.insert(flag);
                             RankCommand command(status_of);
                             return command.run([&] { return run(options, command); });
                           },

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void require_ranks(const PeerOptions& options) {
-  if (!options.join.empty() || !options.listen.empty() || options.says_peers)
+  if (!options.join.empty() || !options.listen.empty() || options.given.count("--peers") != 0)
     throw said_by_launcher("--listen, --join, --peers");
   if (options.bots > 0 || !options.record.empty() || options.pace != "free" ||
       options.terms.is_seated || options.terms.interest.is_wanted())

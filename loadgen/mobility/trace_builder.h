@@ -43,7 +43,7 @@ class TraceBuilder {
   void add(std::uint32_t agent, const TracePoint& point, std::size_t line, Way way = Way::straight);
   /// Keeps every agent where it was last until the end of the trace.
   void hold_to_end();
-  /// The trace, of one agent at least, all of whom have a point.
+  /// The trace has at least one agent, and every agent has a point.
   MobilityTrace finish();
 
   [[noreturn]] void refuse(std::size_t line, const std::string& why) const;

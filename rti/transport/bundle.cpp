@@ -181,8 +181,7 @@ void BundledTransport::poll(std::chrono::nanoseconds longest_wait, TransportList
   if constexpr (checks_whole_structures) check();
 }
 
-/// Nobody but a trunk's channels is reported, so nobody else can tell that a peer holds a socket
-/// for nothing.
+/// Closes sockets of peers that carry no channel: listeners are told of channels only.
 void BundledTransport::close_idle_trunks() {
   const auto now = std::chrono::steady_clock::now();
   if (now - looked_for_idle_ < std::chrono::seconds(1)) return;

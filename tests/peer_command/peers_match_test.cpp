@@ -149,6 +149,16 @@ TEST_F(PeersMatch, RefusesFlagsOfGamesThatAreDivided) {
     EXPECT_THAT(one.stderr_tail(),
                 HasSubstr("in a match, scene 'match', every peer has all bodies"));
   }
+  for (const char* flag : {"--balance", "--policy", "--view", "--view-area", "--view-margin"}) {
+    const Process& one = first("3", {flag, flag == std::string("--policy") ? "periodic" : "1"});
+    ASSERT_TRUE(ends(one));
+    EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::bad_input));
+    EXPECT_THAT(one.stderr_tail(), HasSubstr(std::string("expected no ") + flag));
+  }
+  const Process& hasty = first("3", {"--pace", "free"});
+  ASSERT_TRUE(ends(hasty));
+  EXPECT_EQ(hasty.ending()->exit_status, static_cast<int>(ExitStatus::bad_input));
+  EXPECT_THAT(hasty.stderr_tail(), HasSubstr("goes by the clock: expected realtime, not 'free'"));
 }
 
 }  // namespace
