@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace rink::game {
 
@@ -157,5 +158,12 @@ void Flags::explain(const FlagError& error) const {
 }
 
 bool Flags::is_given(const std::string& flag) const { return app_->count(flag) > 0; }
+std::set<std::string> Flags::given() const {
+  std::set<std::string> names;
+  for (const CLI::Option* option : std::as_const(*app_).get_options())
+    if (option->count() > 0)
+      for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+  return names;
+}
 
 }  // namespace rink::game

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -126,6 +127,8 @@ class Flags {
   /// Explains a wrong flag that was found after `parse`, as `parse` does.
   void explain(const FlagError& error) const;
   bool is_given(const std::string& flag) const;
+  /// By all their long names, with dashes.
+  std::set<std::string> given() const;
 
  private:
   /// Of what a value of that type takes: asked after all other checks, since these say more.

@@ -1,7 +1,6 @@
 // The flags of rink peer.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -18,16 +17,12 @@ struct PeerOptions {
   std::vector<std::string> players{"chaser"};
   std::uint64_t seed = 0;
   std::uint32_t bats = 0, bat_count = 0, puck_count = 0, bots = 0;
-  std::set<std::string> given{};  ///< of `flags_of_some`, those that were given
+  std::set<std::string> given{};  ///< the flags that were given
   double patience_s = 30.0;
   Terms terms{
       .peer_count = 2, .until = 10.0, .window = 0.02, .balance_windows = balance_windows_default};
   ViewingOptions viewing;
 };
-
-/// What some scenes or transports have no use for.
-inline constexpr std::array flags_of_some{"--peers",     "--pace", "--balance",   "--policy",
-                                          "--cell-size", "--view", "--view-area", "--view-margin"};
 
 void add_options(Flags& flags, PeerOptions& options);
 

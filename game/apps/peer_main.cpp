@@ -184,8 +184,9 @@ void require_match_options(const PeerOptions& options) {
     throw std::invalid_argument("--scheme, --always, --seated, --evidence: in a match, scene '" +
                                 options.scene +
                                 "', every peer has all bodies: expected none of these");
-  for (const std::string& flag : options.given)
-    if (flag != "--peers" && flag != "--pace")
+  for (const std::string flag :
+       {"--balance", "--policy", "--cell-size", "--view", "--view-area", "--view-margin"})
+    if (options.given.count(flag) != 0)
       throw std::invalid_argument(flag + ": in a match, scene '" + options.scene +
                                   "', every peer has all bodies: expected no " + flag);
   if (options.pace != "realtime" && options.given.count("--pace") != 0)
@@ -333,8 +334,7 @@ int main(int count, char** words) {
   return run_command(flags, count, words,
                      {.run =
                           [&] {
-                            for (const char* flag : flags_of_some)
-                              if (flags.is_given(flag)) options.given.insert(flag);
+                            options.given = flags.given();
                             RankCommand command(status_of);
                             return command.run([&] { return run(options, command); });
                           },

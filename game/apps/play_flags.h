@@ -26,7 +26,7 @@ struct PlayOptions {
   bool is_offscreen = false;
   std::string script, screenshot;
   double at_s = 0.0;
-  std::set<std::string> given{};  ///< of the flags of play among peers, those that were given
+  std::set<std::string> given{};  ///< the flags that were given
 };
 
 void add_options(game::Flags& flags, PlayOptions& options);

@@ -237,13 +237,11 @@ int main(int count, char** words) {
       "F3 shows figures, F11 fills the screen.\n"
       "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "
       "that ends with an error is reported in the menu and on standard error.");
-  return game::run_command(
-      flags, count, words,
-      {.run =
-           [&] {
-             for (const char* flag : {"--until", "--window", "--scheme", "--view", "--record"})
-               if (flags.is_given(flag)) options.given.insert(flag);
-             return static_cast<int>(play(options));
-           },
-       .status_of = status_of});
+  return game::run_command(flags, count, words,
+                           {.run =
+                                [&] {
+                                  options.given = flags.given();
+                                  return static_cast<int>(play(options));
+                                },
+                            .status_of = status_of});
 }
