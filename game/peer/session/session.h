@@ -115,7 +115,7 @@ class Session {
   // session_goals.cpp
   void face_off(State& next);
   bool put_back(const FaceOff& due);
-  std::uint64_t agree_on(FaceOffWord& word);
+  std::uint64_t agree_on(FaceOffWord& word, std::uint64_t known_free);
 
   // session_recovery.cpp
   void recover();

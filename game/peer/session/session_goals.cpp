@@ -27,11 +27,18 @@ bool Session::put_back(const FaceOff& due) {
     if (places.empty()) return false;
     assert(places.size() <= asked && "a word has one bit for each");
     FaceOffWord word{.puck = due.puck, .taken = 0, .body = {}};
-    for (std::size_t k = 0; k < places.size(); ++k)
-      if (!peer_->world().is_free(places[k], radius)) word.taken |= std::uint64_t{1} << k;
+    // Whatever overlaps a place within the own halo is an own body or a ghost.
+    std::uint64_t known_free = 0;
+    const Halos& halos = peer_->halos();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const std::uint64_t place = std::uint64_t{1} << k;
+      const Box disc = Box::around(places[k], Vector2(radius, radius));
+      if (!peer_->world().is_free(places[k], radius)) word.taken |= place;
+      else if (halos.division().is_within(halos.number(), disc, halos.own())) known_free |= place;
+    }
     if (peer_->share().owns(due.puck))
       word.body.push_back({due.puck, peer_->share().state(due.puck)});
-    const std::uint64_t taken = agree_on(word);
+    const std::uint64_t taken = agree_on(word, known_free);
     const auto free = static_cast<std::size_t>(std::countr_one(taken));
     if (free < places.size()) {
       assert(word.body.front().number == due.puck);
@@ -43,8 +50,8 @@ bool Session::put_back(const FaceOff& due) {
 }
 
 /// Exchanges the peers' messages, and returns the places that are taken at any peer. `word` has the
-/// puck afterwards.
-std::uint64_t Session::agree_on(FaceOffWord& word) {
+/// puck afterwards. Who says of a place in `known_free` that it is taken is given up.
+std::uint64_t Session::agree_on(FaceOffWord& word, std::uint64_t known_free) {
   for (const PeerNumber to : now_.members)
     if (to != settings_.number) mail_.send(to, written(word));
   std::uint64_t taken = word.taken;
@@ -65,6 +72,9 @@ std::uint64_t Session::agree_on(FaceOffWord& word) {
                           (!roles.has_ghost(word.puck) || roles.has_ghost_of(from, word.puck));
     if (!word_received.body.empty() && !may_have)
       inbox_.give_up(from, "sends puck " + std::to_string(word.puck) + ", which it does not own");
+    if ((word_received.taken & known_free) != 0)
+      inbox_.give_up(from, "says that a place for puck " + std::to_string(word.puck) +
+                               " is taken, which is free");
     taken |= word_received.taken;
     words.push_back(written(word_received));
     if (word.body.empty()) word.body = word_received.body;
