@@ -135,7 +135,9 @@ class LieGame {
     const bool is_due =
         is_first ? liar_window_ >= case_.first_window() || case_.kind == MessageKind::face_off
                  : case_.is_repeated() || (case_.is_told_to_all() && liar_window_ == told_window_);
-    if (is_due && lie_.spoil(fields, last_)) {
+    // Of an earlier window: to each peer the same.
+    if (std::exchange(word_window_, liar_window_) != liar_window_) stale_ = last_;
+    if (is_due && lie_.spoil(fields, stale_)) {
       bytes = fields.bytes(), copies_ = lie_.copies();
       if (is_first) told_window_ = liar_window_;
       ++told_;
@@ -179,8 +181,8 @@ class LieGame {
   Lie lie_;
   PeerNumber peer_count_;
   Play play_;
-  Fields last_;
-  std::uint64_t liar_window_ = 0, told_window_ = 0, told_ = 0;
+  Fields last_, stale_;
+  std::uint64_t liar_window_ = 0, word_window_ = 0, told_window_ = 0, told_ = 0;
   int copies_ = 1;  ///< of the liar's next word
   std::atomic<End> victim_ = 99;
   std::string words_;
