@@ -6,14 +6,11 @@
 #include <tuple>
 #include <utility>
 
-#if defined(__linux__)
-#include <malloc.h>
-#endif
-
 #include "game/control/free_place.h"
 #include "game/model/state_hash.h"
 #include "game/net/peer/crowd.h"
 #include "game/net/peer/network/seating.h"
+#include "im/basics/freed_memory.h"
 
 namespace rink::game {
 
@@ -113,9 +110,7 @@ void SharedGame::forget_start() {
   std::vector<Puck> pucks = std::exchange(scene_.bodies.pucks, {});
   start_ = Game(scene_);
   scene_.bodies.pucks = std::move(pucks);
-#if defined(__GLIBC__)
-  malloc_trim(0);  // or else freed memory stays with the process
-#endif
+  give_back_freed_memory();
 }
 
 Fingerprint SharedGame::session_fingerprint() const {
