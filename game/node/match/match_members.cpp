@@ -5,6 +5,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "game/net/peer/network/peer_interrupted.h"
 #include "game/peer/message_bytes.h"
 
 namespace rink::game {
@@ -62,13 +63,15 @@ void MatchMembers::survive(Attempt&& attempt) {
       if (inbox_.must_recover()) recover();
       return attempt();
     } catch (const peer::LossTold&) {
+    } catch (const PeerInterrupted& gone) {
+      note_gone(gone, true);
     } catch (const peer::PeerGone& gone) {
-      note_gone(gone);
+      note_gone(gone, gone.has_finished());
     }
 }
 
 /// What it has said before it went counts. One that only stood still learns that it is given up.
-void MatchMembers::note_gone(const peer::PeerGone& gone) {
+void MatchMembers::note_gone(const peer::PeerGone& gone, bool has_left) {
   if (!settings_.is_replicated) throw peer::Halt(gone.what());
   try {
     while (hooks_.next_mail) {
@@ -84,7 +87,7 @@ void MatchMembers::note_gone(const peer::PeerGone& gone) {
   peer::Loss farewell{.step = all_.step, .gone = inbox_.losses().gone()};
   farewell.questions.push_back({gone.peer(), peer::Answer::missed});
   mail_.send(gone.peer(), peer::written(std::move(farewell)));
-  inbox_.note_gone(gone.peer(), gone.what(), gone.has_finished());
+  inbox_.note_gone(gone.peer(), gone.what(), has_left);
 }
 
 bool MatchMembers::hear(peer::PeerNumber from, Bytes bytes) {
