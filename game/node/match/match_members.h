@@ -89,6 +89,7 @@ class MatchMembers {
   LastWords last_words_of(peer::PeerNumber from);
   void follow_last_words(const std::map<peer::PeerNumber, LastWords>& told);
   std::string fault_of(const LastWords& words) const;
+  bool may_be_last(const LastRound& last, const LastWords& words) const;
   void let_go();
 
   peer::Mail& mail_;
