@@ -49,84 +49,76 @@ std::string host_records(const std::string& folder) {
   return other;
 }
 
+/// `Match`, made of the arguments, for a source that does more than it at each advance.
+template <class Match>
+class MatchWithin : public game::MatchSource {
+ public:
+  template <class... Arguments>
+  explicit MatchWithin(const Arguments&... arguments) : match_(arguments...) {}
+  void advance(double now_s) override { match_.advance(now_s); }
+  const game::MatchSight& sight() const override { return match_.sight(); }
+  std::uint32_t hand_count() const override { return match_.hand_count(); }
+  void press(std::uint32_t hand, game::Key key, bool is_down) override {
+    match_.press(hand, key, is_down);
+  }
+  void pause(bool is_wanted) override { match_.pause(is_wanted); }
+  void rematch() override { match_.rematch(); }
+
+ protected:
+  Match& match() { return match_; }
+
+ private:
+  Match match_;
+};
+
 /// A local match whose records are kept, also of one that is abandoned. A record that cannot be
 /// written is reported; the match goes on.
-class RecordedMatch final : public game::MatchSource {
+class RecordedMatch final : public MatchWithin<game::LocalMatch> {
  public:
   RecordedMatch(const game::Scene& scene, const game::LocalMatchSettings& settings,
                 const std::string& folder)
-      : match_(scene, settings), records_(folder) {}
+      : MatchWithin(scene, settings), records_(folder) {}
   ~RecordedMatch() override {
-    match_.finish();
+    match().finish();
     keep();
   }
   void advance(double now_s) override {
-    match_.advance(now_s);
+    MatchWithin::advance(now_s);
     keep();
   }
-  const game::MatchSight& sight() const override { return match_.sight(); }
-  std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override {
-    match_.press(hand, key, is_down);
-  }
-  void pause(bool is_wanted) override { match_.pause(is_wanted); }
-  void rematch() override { match_.rematch(); }
 
  private:
   void keep() {
-    for (const game::KeyLog& log : match_.take_finished()) {
+    for (const game::KeyLog& log : match().take_finished()) {
       if (const auto problem = records_.keep(log)) game::complain(*problem);
-      match_.set_notice(records_.is_failing() ? "The last match could not be recorded" : "");
+      match().set_notice(records_.is_failing() ? "The last match could not be recorded" : "");
     }
   }
-  game::LocalMatch match_;
   game::MatchRecords records_;
 };
 
-/// A match that is hosted and played here: the server starts before the connection to it, and ends
-/// after it.
-class HostedMatch final : public game::MatchSource {
+/// A match that is hosted and played here: the server, as the first base, starts before the
+/// connection to it, and ends after it.
+class HostedMatch final : private HostProcess, public MatchWithin<game::JoinedMatch> {
  public:
   HostedMatch(const std::string& port, const std::string& records, const std::string& key_file)
-      : host_({.port = port, .records = records, .key_file = key_file}),
-        match_("127.0.0.1:" + port, {.name = "host"}, key_file) {}
+      : HostProcess({.port = port, .records = records, .key_file = key_file}),
+        MatchWithin("127.0.0.1:" + port, game::NetworkMatchSettings{.name = "host"}, key_file) {}
   void advance(double now_s) override {
-    match_.advance(now_s);
-    std::cerr << host_.take_words();
+    MatchWithin::advance(now_s);
+    std::cerr << take_words();
   }
-  const game::MatchSight& sight() const override { return match_.sight(); }
-  std::uint32_t hand_count() const override { return match_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override {
-    match_.press(hand, key, is_down);
-  }
-  void pause(bool is_wanted) override { match_.pause(is_wanted); }
-  void rematch() override { match_.rematch(); }
-
- private:
-  HostProcess host_;
-  game::JoinedMatch match_;
 };
 
 /// A part of a game that peers share, with its messages for the terminal.
 template <class Peer>
-class SharedMatch final : public game::MatchSource {
+class SharedMatch final : public MatchWithin<Peer> {
  public:
-  template <class... Settings>
-  explicit SharedMatch(const Settings&... settings) : peer_(settings...) {}
+  using MatchWithin<Peer>::MatchWithin;
   void advance(double now_s) override {
-    peer_.advance(now_s);
-    std::cout << peer_.take_words() << std::flush;
+    MatchWithin<Peer>::advance(now_s);
+    std::cout << this->match().take_words() << std::flush;
   }
-  const game::MatchSight& sight() const override { return peer_.sight(); }
-  std::uint32_t hand_count() const override { return peer_.hand_count(); }
-  void press(std::uint32_t hand, game::Key key, bool is_down) override {
-    peer_.press(hand, key, is_down);
-  }
-  void pause(bool is_wanted) override { peer_.pause(is_wanted); }
-  void rematch() override { peer_.rematch(); }
-
- private:
-  Peer peer_;
 };
 
 /// What only a game without rules of a match has.

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "game/physics/body.h"
+#include "game/players/player.h"
 
 namespace rink::game {
 
@@ -45,5 +47,10 @@ class Nearest {
   std::vector<Entry> found_;
   std::size_t most_ = 0;
 };
+
+/// The `most` of `seen` that are nearest to `from` [m], the nearest first; of two at equal distance
+/// the one that comes first in `seen`.
+std::vector<SeenEntity> nearest_of(std::span<const SeenEntity> seen, const Vector2& from,
+                                   std::size_t most);
 
 }  // namespace rink::game

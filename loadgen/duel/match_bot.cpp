@@ -8,19 +8,15 @@ namespace rink::loadgen {
 
 std::vector<game::SeenEntity> nearest_pucks(const game::MatchSight& sight,
                                             const game::Vector2& from, std::size_t most) {
-  game::Nearest<const game::Thing*> nearest;
-  nearest.clear(most);
+  std::vector<game::SeenEntity> pucks;
   for (const game::Thing& thing : sight.things)
     if (thing.kind == physics::BodyKind::puck)
-      nearest.show(&thing, (thing.position - from).squaredNorm());
-  std::vector<game::SeenEntity> pucks;
-  for (const auto& found : nearest.found())
-    pucks.push_back({.id = found.thing->id,
-                     .kind = found.thing->kind,
-                     .position = found.thing->position,
-                     .velocity = found.thing->velocity,
-                     .half_extent = found.thing->half_extent});
-  return pucks;
+      pucks.push_back({.id = thing.id,
+                       .kind = thing.kind,
+                       .position = thing.position,
+                       .velocity = thing.velocity,
+                       .half_extent = thing.half_extent});
+  return game::nearest_of(pucks, from, most);
 }
 
 void MatchBot::act(game::NetworkMatch& match, double now_s) {

@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "game/net/peer/network/peer_network.h"
+#include "game/node/match/last_words.h"
 #include "game/node/socket_meeting.h"
+#include "game/peer/message_bytes.h"
 
 namespace rink::game {
 
@@ -28,6 +30,8 @@ struct Mortality {
   std::atomic<bool> is_due = false;  ///< or as soon as it looks at its network
   std::atomic<bool> is_dead = false, is_thawed = false;
   std::atomic<std::uint64_t> words = 0;  ///< that it has sent
+  /// What it says of lost nodes instead of the truth, if anything.
+  std::function<void(LastWords&)> lie{};
 };
 
 /// What dies takes no leave: its connections close, as those of a killed process.
@@ -62,6 +66,10 @@ class MortalNetwork final : public SessionNetwork {
   }
   void send(peer::PeerNumber to, std::vector<std::uint8_t> bytes) override {
     live();
+    if (LastWords last; mortality_.lie && peer::read_whole(bytes, last)) {
+      mortality_.lie(last);
+      bytes = peer::bytes_from(last);
+    }
     network_->send(to, std::move(bytes));
   }
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override {

@@ -124,6 +124,21 @@ TEST_F(PeersMatch, GoesOnWithoutAPeerThatIsKilled) {
   }
 }
 
+/// Unlike one that is killed it says so, and plays on nowhere.
+TEST_F(PeersMatch, IsThatOfBothIfTheFirstIsInterrupted) {
+  const Process& one = first("6", {"--bots", "2"});
+  const Process& two = second(one, {"--bots", "0"});
+  ASSERT_TRUE(are_playing({&one, &two}));
+  until([] { return false; }, 4s);  // a second of the match is over
+  ASSERT_EQ(kill(one.id(), SIGINT), 0);
+  ASSERT_TRUE(are_over(one, two));
+  EXPECT_EQ(one.ending()->exit_status, static_cast<int>(ExitStatus::interrupted));
+  EXPECT_EQ(two.ending()->exit_status, 0) << two.stderr_tail();
+  EXPECT_THAT(two.stderr_tail(), HasSubstr("was interrupted: this peer continues alone"));
+  EXPECT_EQ(report("second").at("lost"), Json({0}));
+  record("second");
+}
+
 TEST_F(PeersMatch, WaitsForItsPlayersForAWhileOnly) {
   const Process& one = first("3", {"--bots", "1", "--patience", "2"});
   const Process& two = second(one, {"--patience", "2"});

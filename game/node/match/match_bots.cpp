@@ -6,6 +6,7 @@
 
 #include "game/net/peer/network/session_error.h"
 #include "game/net/peer/network/unguessable_number.h"
+#include "game/players/attention.h"
 #include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
 
@@ -88,9 +89,7 @@ KeysHeld MatchBots::decide(Bot& bot) const {
                        .position = game_.position(entity.id),
                        .velocity = game_.velocity(entity.id),
                        .half_extent = entity.half_extent});
-  std::ranges::sort(
-      pucks, {}, [&](const SeenEntity& puck) { return (puck.position - position).squaredNorm(); });
-  if (pucks.size() > bot.player->pucks_wanted()) pucks.resize(bot.player->pucks_wanted());
+  pucks = nearest_of(pucks, position, bot.player->pucks_wanted());
   return bot.player->decide({.position = position, .velocity = game_.velocity(bat), .pucks = pucks},
                             game_.now());
 }

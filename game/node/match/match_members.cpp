@@ -5,6 +5,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "game/net/peer/network/peer_interrupted.h"
 #include "game/peer/message_bytes.h"
 
 namespace rink::game {
@@ -62,13 +63,15 @@ void MatchMembers::survive(Attempt&& attempt) {
       if (inbox_.must_recover()) recover();
       return attempt();
     } catch (const peer::LossTold&) {
+    } catch (const PeerInterrupted& gone) {
+      note_gone(gone, true);
     } catch (const peer::PeerGone& gone) {
-      note_gone(gone);
+      note_gone(gone, gone.has_finished());
     }
 }
 
 /// What it has said before it went counts. One that only stood still learns that it is given up.
-void MatchMembers::note_gone(const peer::PeerGone& gone) {
+void MatchMembers::note_gone(const peer::PeerGone& gone, bool has_left) {
   if (!settings_.is_replicated) throw peer::Halt(gone.what());
   try {
     while (hooks_.next_mail) {
@@ -84,7 +87,7 @@ void MatchMembers::note_gone(const peer::PeerGone& gone) {
   peer::Loss farewell{.step = all_.step, .gone = inbox_.losses().gone()};
   farewell.questions.push_back({gone.peer(), peer::Answer::missed});
   mail_.send(gone.peer(), peer::written(std::move(farewell)));
-  inbox_.note_gone(gone.peer(), gone.what(), gone.has_finished());
+  inbox_.note_gone(gone.peer(), gone.what(), has_left);
 }
 
 bool MatchMembers::hear(peer::PeerNumber from, Bytes bytes) {
@@ -263,9 +266,24 @@ std::string MatchMembers::fault_of(const LastWords& words) const {
         !is_round(word.bytes))
       return "tells what no lost peer has said";
   for (const LastRound& last : words.last_rounds)
-    if (!is_gone(last.node) || last.round > words.round + 2)
-      return "tells of a last round that is still to come";
+    if (!is_gone(last.node) || !may_be_last(last, words))
+      return "tells a last round of peer " + std::to_string(last.node) + " that cannot be";
   return {};
+}
+
+/// Who has learnt it in a recovery that did not end here was told then that this node is in this
+/// round, and has all words up to the last.
+bool MatchMembers::may_be_last(const LastRound& last, const LastWords& words) const {
+  if (const auto known = last_rounds_.find(last.node); known != last_rounds_.end())
+    return last.round == known->second;
+  const bool is_said_here = of_lost_.count({round_, last.node}) > 0;
+  if (last.round < round_ + is_said_here || last.round > round_ + 2) return false;
+  for (std::uint64_t round = round_; round < last.round; ++round)
+    if (std::ranges::none_of(words.words, [&](const LostWord& word) {
+          return word.node == last.node && word.round == round;
+        }))
+      return false;
+  return true;
 }
 
 /// Who has said a word of the furthest round to anybody takes part in it.

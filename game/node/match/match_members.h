@@ -76,7 +76,8 @@ class MatchMembers {
  private:
   template <class Attempt>
   void survive(Attempt&& attempt);
-  void note_gone(const peer::PeerGone& gone);
+  /// `has_left`: by its own word, so that it goes on nowhere.
+  void note_gone(const peer::PeerGone& gone, bool has_left);
   /// True if it is news of a loss.
   bool hear(peer::PeerNumber from, Bytes bytes);
   Bytes next_round(peer::PeerNumber from);
@@ -88,6 +89,7 @@ class MatchMembers {
   LastWords last_words_of(peer::PeerNumber from);
   void follow_last_words(const std::map<peer::PeerNumber, LastWords>& told);
   std::string fault_of(const LastWords& words) const;
+  bool may_be_last(const LastRound& last, const LastWords& words) const;
   void let_go();
 
   peer::Mail& mail_;

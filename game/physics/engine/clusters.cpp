@@ -25,10 +25,7 @@ constexpr double creep_speed = 1e-9;  // m/s; without thrust, a cluster that mov
 
 /// Whoever does not know that the body comes may decide otherwise about a pile.
 void record_sight(std::uint32_t body, const Observers& observers) {
-  if (observers.journal == nullptr) return;
-  std::vector<std::uint32_t>& looked_at = observers.journal->sight.looked_at;
-  if (std::find(looked_at.begin(), looked_at.end(), body) == looked_at.end())
-    looked_at.push_back(body);
+  if (observers.journal != nullptr) observers.journal->sight.looked_at.push_back(body);
 }
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "game/net/peer/network/peer_interrupted.h"
 #include "im/basics/printable.h"
 
 namespace rink::game {
@@ -53,7 +54,8 @@ bool PeerConversation::take_farewell(rti::ConnectionId connection, PeerLink& lin
   link.is_done = true;
   // A peer that leaves with consent waits for this message.
   if (link.is_parted) links_.send(connection, FrameKind::farewell, bytes_of(Farewell{}));
-  if (farewell->kind == FarewellKind::interrupted)
+  link.was_interrupted = farewell->kind == FarewellKind::interrupted;
+  if (link.was_interrupted)
     losses_.lose(
         link, ExitStatus::connection_lost,
         name_of(link) + " was interrupted" + (losses_.are_survived() ? "" : ", so all end"));
@@ -79,8 +81,11 @@ void PeerConversation::send(peer::PeerNumber to, std::vector<std::uint8_t> bytes
 
 void PeerConversation::check_losses() const {
   for (const auto& [connection, other] : links_.all())
-    if (other.role == LinkRole::peer && other.is_counted && !other.loss.empty() && !other.is_parted)
+    if (other.role == LinkRole::peer && other.is_counted && !other.loss.empty() &&
+        !other.is_parted) {
+      if (other.was_interrupted) throw PeerInterrupted(other.number, other.loss);
       throw peer::PeerGone(other.number, false, other.loss);
+    }
 }
 
 std::optional<std::vector<std::uint8_t>> PeerConversation::take_mail(peer::PeerNumber from) {

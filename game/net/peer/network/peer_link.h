@@ -39,7 +39,8 @@ struct PeerLink {
 
   // Of a peer, kept by PeerConversation and PeerLosses.
   std::deque<std::vector<std::uint8_t>> inbox;
-  bool is_done = false;  ///< it has sent its farewell
+  bool is_done = false;          ///< it has sent its farewell
+  bool was_interrupted = false;  ///< which has said so
   bool is_parted = false;
   std::string loss;  ///< why it is gone, if it is
 };
