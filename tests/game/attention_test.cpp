@@ -18,11 +18,15 @@ std::vector<std::uint32_t> ids_of(const std::vector<SeenEntity>& pucks) {
 /// Places on a lattice of 8 x 8 are at equal distance to many.
 TEST(NearestOf, AreTheFirstOfAllInOrderOfDistanceThenOfAppearance) {
   std::mt19937 random(5);
+  const auto lattice_point = [&] {
+    const std::uint32_t cell = static_cast<std::uint32_t>(random()) % 64;
+    return Vector2(0.25 * (cell % 8), 0.25 * (cell / 8));  // NOLINT(bugprone-integer-division)
+  };
   for (std::uint32_t count = 0; count < 60; ++count) {
     std::vector<SeenEntity> seen;
     for (std::uint32_t k = 0; k < count; ++k)
-      seen.push_back({.id = k, .position = Vector2(0.25 * (random() % 8), 0.25 * (random() % 8))});
-    const Vector2 from(0.25 * (random() % 8), 0.25 * (random() % 8));
+      seen.push_back({.id = k, .position = lattice_point()});
+    const Vector2 from = lattice_point();
     std::vector<SeenEntity> all = seen;
     std::ranges::stable_sort(
         all, {}, [&](const SeenEntity& puck) { return (puck.position - from).squaredNorm(); });
