@@ -8,12 +8,14 @@
 #include "game/control/game_state.h"
 #include "game/control/key_log_file.h"
 #include "game/control/playing.h"
+#include "game/net/server/serve_requirements.h"
 #include "game/players/player_kinds.h"
 #include "game/players/random_plan.h"
 #include "game/replication/update_policy.h"
 #include "loadgen/experiment/parameter.h"
 #include "loadgen/measure/results.h"
 #include "loadgen/mobility/trace_scene.h"
+#include "rti/types.h"
 
 namespace rink::loadgen {
 namespace {
@@ -28,6 +30,20 @@ void expect_bats_for_all(const Experiment& experiment, const Cell& first, std::s
       "experiment " + experiment.name + ": clients = " + std::to_string(most) + ": scene " +
       experiment.scene + " has " + std::to_string(bat_count) +
       " bats; allowed is at most as many clients, or population = \"per_client\"");
+}
+
+/// The RTI would refuse it, each cell anew and in words that don't name the scene. In virtual time
+/// no bat comes back, so a server can use all regions of a federate.
+void expect_bodies_for_a_server(const Experiment& experiment, std::size_t body_count) {
+  const bool is_virtual = experiment.transport == TransportKind::virtual_time;
+  const std::size_t most = is_virtual ? rti::region_max : game::served_bodies_max;
+  if (body_count <= most ||
+      std::ranges::all_of(experiment.modes, [](const auto& mode) { return mode == peer_mode; }))
+    return;
+  throw ExperimentError("experiment " + experiment.name + ": scene " + experiment.scene + " has " +
+                        std::to_string(body_count) + " bodies; a server can publish at most " +
+                        std::to_string(most) +
+                        (is_virtual ? "" : ", in virtual time " + std::to_string(rti::region_max)));
 }
 
 /// Nodes would refuse it, each cell anew.
@@ -136,6 +152,7 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
     if (played.trace) expect_what_traces_can(experiment, cell, played);
     scene = std::move(played.scene);
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
+    expect_bodies_for_a_server(experiment, game::count_of(scene.bodies));
     expect_no_keys_among_nodes(experiment, scene);
     if (scene.world.field.goal_width > 0.0 &&
         std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) !=

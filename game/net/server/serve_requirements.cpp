@@ -16,9 +16,6 @@
 namespace rink::game {
 namespace {
 
-/// A federate registers at most `object_block` objects; the rest is for bats that come back.
-constexpr std::size_t body_max = rti::object_block / 2;
-
 /// Throws if the options cannot host matches of `scene`.
 void require_match(const ServeOptions& options, const Scene& scene) {
   if (const auto objection = match_objection(scene))
@@ -142,9 +139,9 @@ void require_room(const ServeOptions& options, const Scene& scene) {
         "--clients: " + std::to_string(options.clients) + " players, but scene '" + options.scene +
         "' has " + std::to_string(bodies.bats.size()) + " bats; allowed is at most as many");
   const std::size_t body_count = count_of(bodies);
-  if (body_count > body_max)
+  if (body_count > served_bodies_max)
     throw std::runtime_error("scene '" + options.scene + "' has " + std::to_string(body_count) +
-                             " bodies; allowed is at most " + std::to_string(body_max));
+                             " bodies; allowed is at most " + std::to_string(served_bodies_max));
   require_scheme(options, scene);
   require_cells(options);
   require_always(options);

@@ -1,14 +1,20 @@
 // Completes and checks the flags of rink serve before anything is opened.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "game/model/scene.h"
 #include "game/net/server/serve_options.h"
 #include "rti/federation_execution.h"
 #include "rti/federation_file.h"
+#include "rti/types.h"
 
 namespace rink::game {
+
+/// Bodies that a server of one scene can publish: a federate registers at most `object_block`
+/// objects, and the other half is for bats that come back.
+inline constexpr std::size_t served_bodies_max = rti::object_block / 2;
 
 /// The federation file of the options, or a default if there is none; takes from it the address,
 /// the members and the number of clients to wait for. Throws rti::FileError, or std::runtime_error
