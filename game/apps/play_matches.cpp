@@ -85,6 +85,8 @@ class RecordedMatch final : public MatchWithin<game::LocalMatch> {
   void advance(double now_s) override {
     MatchWithin::advance(now_s);
     keep();
+    const auto record_so_far = [this] { return match().record_so_far(); };
+    if (const auto problem = records_.follow(now_s, record_so_far)) game::complain(*problem);
   }
 
  private:

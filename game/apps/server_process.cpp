@@ -278,6 +278,11 @@ void ServerProcess::keep_records() {
     if (const auto error = records_.keep(log)) complain(*error, "; matches go on");
     server_.hosted()->set_unrecorded(records_.is_failing());
   }
+  const auto record_so_far = [this] {
+    return server_.hosted()->record_so_far(server_.game(), server_.keys().recorded());
+  };
+  if (const auto error = records_.follow(now_s(), record_so_far))
+    complain(*error, "; matches go on");
 }
 
 std::optional<ServerTrace> ServerProcess::trace(const ServedGame& played) const {

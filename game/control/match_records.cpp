@@ -1,7 +1,8 @@
-// Writes records under the first free number.
+// Writes records under the first free number, those of matches that go on again and again.
 #include "game/control/match_records.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <utility>
 
@@ -26,17 +27,56 @@ void MatchRecords::require_writable() const {
                      ": records of matches cannot be written to this folder: " + reason);
 }
 
-std::filesystem::path MatchRecords::write(const KeyLog& log) {
-  std::error_code error;
+/// Beside it first, and then in its place at once, so that none is ever half written.
+void MatchRecords::write_open(const KeyLog& log) {
   require_writable();
-  const auto file = [this] { return folder_ / ("match-" + std::to_string(next_) + ".keys"); };
-  while (std::filesystem::exists(file(), error)) ++next_;
-  write_packed_key_log(file(), log);
-  return file();
+  while (open_.empty()) {
+    const std::filesystem::path file = folder_ / ("match-" + std::to_string(next_++) + ".keys");
+    errno = 0;
+    std::FILE* const fresh = std::fopen(file.c_str(), "wbx");  // only if nobody has it
+    if (fresh != nullptr) open_ = file, std::fclose(fresh);
+    else if (errno != EEXIST)
+      throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
+  }
+  const std::filesystem::path whole = folder_ / ("." + open_.filename().string());
+  std::error_code error;
+  try {
+    write_packed_key_log(whole, log);
+    std::filesystem::rename(whole, open_, error);
+    if (error) throw SceneError(open_.string() + ": cannot be written: " + error.message());
+  } catch (const SceneError&) {
+    std::error_code ignored;
+    if (!open_until_) std::filesystem::remove(open_, ignored), open_.clear();
+    throw;
+  }
+  open_until_ = log.until;
+}
+
+std::filesystem::path MatchRecords::write(const KeyLog& log) {
+  const auto close = [this] {
+    open_until_.reset();
+    return std::exchange(open_, {});
+  };
+  try {
+    write_open(log);
+  } catch (const SceneError&) {
+    close();
+    throw;
+  }
+  return close();
 }
 
 std::optional<std::string> MatchRecords::keep(const KeyLog& log) {
   return first_error([&] { write(log); });
+}
+
+std::optional<std::string> MatchRecords::follow(
+    double now_s, const std::function<std::optional<KeyLog>()>& record_so_far) {
+  if (now_s < due_s_) return std::nullopt;
+  due_s_ = now_s + period_s;
+  const std::optional<KeyLog> log = record_so_far();
+  if (!log || (open_until_ && log->until == open_until_)) return std::nullopt;
+  return first_error([&] { write_open(*log); });
 }
 
 std::optional<std::string> MatchRecords::test() {

@@ -51,9 +51,13 @@ void LocalMatch::advance(double now_s) {
   show();
 }
 
+std::optional<KeyLog> LocalMatch::record_so_far() const {
+  if (is_finished_ || playing_->game().now() == 0.0) return std::nullopt;
+  return log_of(playing_->game(), scene_, settings_.scene_text, playing_->keys());
+}
+
 void LocalMatch::finish() {
-  if (!is_finished_ && playing_->game().now() > 0.0)
-    finished_.push_back(log_of(playing_->game(), scene_, settings_.scene_text, playing_->keys()));
+  if (std::optional<KeyLog> log = record_so_far()) finished_.push_back(*std::move(log));
   is_finished_ = true;
 }
 

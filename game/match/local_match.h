@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,8 @@ class LocalMatch final : public MatchSource {
   void set_notice(std::string notice) { sight_.notice = std::move(notice); }
   /// Ends the match, so that it is recorded.
   void finish();
+  /// The record of the present match as it stands; nothing if it has not begun or is recorded.
+  std::optional<KeyLog> record_so_far() const;
   /// Records of the matches that ended or were abandoned since the last call.
   std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
   /// The game since the last face-off that opened a match.

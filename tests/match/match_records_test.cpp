@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <set>
 
 #include "game/control/key_log_file.h"
 #include "game/control/replay.h"
@@ -64,6 +65,48 @@ TEST_F(RecordsOfMatches, OfFortySecondsTakeAFewKilobytesAndReplayToTheSameHash) 
     EXPECT_EQ(match.sight().time, *log.until);
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "match-3.keys"));
+}
+
+/// Whoever is killed between two frames leaves what is in the folder then.
+TEST_F(RecordsOfMatches, AreThereAsTheMatchGoesOnButForItsLastSecond) {
+  LocalMatch match(match_scene(), {.players = {"chaser", "chaser"}, .scene_text = match_text()});
+  MatchRecords records(folder);
+  const std::filesystem::path file = folder / "match-1.keys";
+  std::set<double> ends;
+  for (int frame = 0; frame < 8 * 60; ++frame) {
+    const double now_s = 100.0 + frame / 60.0;
+    if (frame == 5 * 60 || frame == 7 * 60) match.pause(frame == 5 * 60);
+    match.advance(now_s);
+    ASSERT_FALSE(records.follow(now_s, [&] { return match.record_so_far(); }));
+    const double played_s = match.playing().game().now();
+    if (played_s < MatchRecords::period_s) continue;
+    const KeyLog log = read_key_log(file);
+    EXPECT_GE(*log.until, played_s - MatchRecords::period_s - 1e-9);
+    if (ends.insert(*log.until).second) {
+      EXPECT_TRUE(is_replayed(log)) << *log.until;
+    }
+  }
+  EXPECT_THAT(ends.size(), testing::AllOf(testing::Ge(2u), testing::Le(8u)))
+      << "once a second, and never in the pause";
+  match.finish();
+  EXPECT_FALSE(match.record_so_far());
+  const KeyLog whole = match.take_finished().at(0);
+  EXPECT_EQ(records.write(whole), file);
+  EXPECT_EQ(read_key_log(file).hash, whole.hash);
+  EXPECT_EQ(records.write(whole), folder / "match-2.keys") << "the next match's";
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("match-"));
+}
+
+TEST_F(RecordsOfMatches, ThatGoOnInOneFolderNeverTakeEachOthersFile) {
+  const KeyLog one = local_match(1.0), two = local_match(2.0);
+  MatchRecords first(folder), second(folder);
+  EXPECT_FALSE(first.follow(0.0, [&] { return one; }));
+  EXPECT_FALSE(second.follow(0.0, [&] { return two; }));
+  EXPECT_EQ(second.write(two), folder / "match-2.keys");
+  EXPECT_EQ(first.write(one), folder / "match-1.keys");
+  EXPECT_EQ(read_key_log(folder / "match-1.keys").hash, one.hash);
+  EXPECT_EQ(read_key_log(folder / "match-2.keys").hash, two.hash);
 }
 
 TEST_F(RecordsOfMatches, ThatCannotBeWrittenAreComplainedOfOnceUntilTheyCanAgain) {

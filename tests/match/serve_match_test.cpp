@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "game/control/key_log_file.h"
 #include "game/process/process.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
@@ -69,6 +70,21 @@ TEST_F(AHost, ThatIsKilledIsMissedByItsPlayersAtOnce) {
   host.reset();
   EXPECT_EQ(status_of(duel, 3s), 16) << duel.stderr_tail();
   EXPECT_THAT(duel.stderr_tail(), HasSubstr("closed by peer"));
+}
+
+TEST_F(AHost, ThatIsKilledLeavesTheRecordOfAllButTheLastSecond) {
+  ASSERT_TRUE(place) << host->stderr_tail();
+  Process duel(command("duel"), {"--connect", *place, "--duration", "60"}, {});
+  const std::filesystem::path file = folder / "match-1.keys";
+  const auto recorded_s = [&] {
+    return std::filesystem::exists(file) ? read_key_log(file).until.value_or(0.0) : 0.0;
+  };
+  const auto limit = std::chrono::steady_clock::now() + 20s;
+  while (recorded_s() < 2.0 && std::chrono::steady_clock::now() < limit) duel.attend(20ms);
+  host.reset();  // by SIGKILL
+  EXPECT_GE(recorded_s(), 2.0) << duel.stderr_tail();
+  Process replay(command("replay"), {file.string()}, {});
+  EXPECT_EQ(status_of(replay, 20s), 0) << replay.stderr_tail();
 }
 
 TEST(ServeMatch, RefusesASceneThatIsNoMatch) {

@@ -51,10 +51,17 @@ MatchState HostedMatch::state() const {
   return state;
 }
 
-void HostedMatch::finish(const Game& game, std::vector<InputEvent> events) {
-  assert(is_unfinished(game));
+std::optional<KeyLog> HostedMatch::record_so_far(const Game& game,
+                                                 const std::vector<InputEvent>& events) const {
+  if (is_recorded_ || game.now() == 0.0) return std::nullopt;
+  return log_of(game, scene_, hosting_.scene_text, events);
+}
+
+void HostedMatch::finish(const Game& game, const std::vector<InputEvent>& events) {
+  std::optional<KeyLog> log = record_so_far(game, events);
+  if (!log) return;
   is_recorded_ = true;
-  finished_.push_back(log_of(game, scene_, hosting_.scene_text, std::move(events)));
+  finished_.push_back(*std::move(log));
 }
 
 }  // namespace rink::game

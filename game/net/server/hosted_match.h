@@ -64,10 +64,12 @@ class HostedMatch {
   double earlier_s() const { return earlier_s_; }
   const std::string& scene_text() const { return hosting_.scene_text; }
 
-  /// True if the present match has something that is not recorded yet.
-  bool is_unfinished(const Game& game) const { return !is_recorded_ && game.now() > 0.0; }
+  /// The record of the present match as it stands, with these keys; nothing if it has not begun or
+  /// is recorded.
+  std::optional<KeyLog> record_so_far(const Game& game,
+                                      const std::vector<InputEvent>& events) const;
   /// Makes the record of the present match, once.
-  void finish(const Game& game, std::vector<InputEvent> events);
+  void finish(const Game& game, const std::vector<InputEvent>& events);
   /// Records of the matches that ended or were abandoned since the last call, in order.
   std::vector<KeyLog> take_finished() { return std::exchange(finished_, {}); }
   /// Notes whether the last record could not be written, which players see.

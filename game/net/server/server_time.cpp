@@ -53,7 +53,7 @@ double Server::follow_match(double real_s) {
 
 void Server::finish_record() {
   assert(hosted_);
-  if (hosted_->is_unfinished(game_)) hosted_->finish(game_, keys_.take_record());
+  hosted_->finish(game_, keys_.recorded());
 }
 
 }  // namespace rink::game

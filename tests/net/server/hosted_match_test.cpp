@@ -60,11 +60,12 @@ TEST(AHostedMatch, FeelsKeysFromTheCountdownOn) {
 TEST(AHostedMatch, IsRecordedOnceWhenItIsGivenUp) {
   Evening evening;
   evening.follow(2.0);
-  EXPECT_FALSE(evening.match.is_unfinished(evening.game)) << "nothing was played yet";
+  EXPECT_FALSE(evening.match.record_so_far(evening.game, {})) << "nothing was played yet";
   evening.follow(5.0);
-  ASSERT_TRUE(evening.match.is_unfinished(evening.game));
+  ASSERT_TRUE(evening.match.record_so_far(evening.game, {}));
   evening.match.finish(evening.game, {});
-  EXPECT_FALSE(evening.match.is_unfinished(evening.game));
+  evening.match.finish(evening.game, {});
+  EXPECT_FALSE(evening.match.record_so_far(evening.game, {}));
   const std::vector<KeyLog> records = evening.match.take_finished();
   ASSERT_EQ(records.size(), 1u);
   EXPECT_EQ(records[0].hash, evening.game.hash());

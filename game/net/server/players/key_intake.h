@@ -62,7 +62,6 @@ class KeyIntake {
   void record(const InputEvent& queued) { record_.push_back(queued); }
   /// All events as they were queued.
   const std::vector<InputEvent>& recorded() const { return record_; }
-  std::vector<InputEvent> take_record() { return std::exchange(record_, {}); }
   const KeyCounters& counters() const { return counters_; }
 
  private:
