@@ -10,6 +10,8 @@ struct AmbassadorCounters {
   std::uint64_t bytes_received = 0, bytes_sent = 0;  ///< payload, frame headers included
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_sent = 0, updates_reflected = 0;
+  std::uint64_t residuals_received = 0,  ///< of the updates reflected
+      residuals_refused = 0;             ///< malformed, or to values that never came
   std::uint64_t interactions_sent = 0, interactions_received = 0;
   std::uint64_t updates_spared = 0, interactions_spared = 0;  ///< not sent, since nobody subscribes
   std::uint64_t objects_discovered = 0, objects_removed = 0;

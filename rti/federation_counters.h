@@ -18,7 +18,8 @@ struct FederationCounters {
                 interaction_bytes_sent = 0;
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_received = 0,
-                updates_sent = 0;  ///< records; one sent to n federates counts n times
+                updates_sent = 0,  ///< records; one sent to n federates counts n times
+      residuals_sent = 0;          ///< of these, as residuals
   std::uint64_t updates_put_off =
       0;  ///< records held back from a federate by its filter's tiers or budget,
   std::uint64_t updates_caught_up =
@@ -30,7 +31,7 @@ struct FederationCounters {
   std::uint64_t entries_postponed = 0;       ///< of those, sent by a later flush for want of room
   std::uint64_t ownership_notices_sent = 0;  ///< objects in relevance notices; one with n notices
                                              ///< counts n times
-  std::uint64_t late_requests = 0;  ///< of objects that were deleted meanwhile: ignored
+  std::uint64_t late_requests = 0;           ///< of objects that were deleted meanwhile: ignored
   std::uint64_t joins = 0, resigns = 0;
   std::uint64_t timed_received = 0, timed_sent = 0, time_advance_grants = 0,
                 retractions = 0;  ///< messages in time-stamp order; time management

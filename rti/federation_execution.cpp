@@ -132,6 +132,8 @@ void FederationExecution::serve_by_host(FederateHandle federate, ObjectClassHand
   interest.host_served =
       object_class ? static_cast<std::uint16_t>(object_class.value) : FederateInterest::no_class;
   if (former == interest.host_served) return;
+  interest.holds_static.clear();  // it may have dropped what it was told before
+  interest.holds_former.clear();
   const ObjectTable& objects = parts_->ground.objects;
   interest.in_scope.for_each([&](ObjectSlot each) {
     if (objects[each].object_class == interest.host_served) interest.unannounced.erase(each);

@@ -264,6 +264,11 @@ void observe(const Game& game, physics::WorldJournal& journal) {
   journal.observe(*game.simulator_->exact_world());
 }
 
+double key_thrust(const Game& game, std::uint32_t player) {
+  assert(player < game.seats_.size());
+  return game.seats_[player].bat.thrust;
+}
+
 void Game::check() const {
   assert(std::ranges::is_sorted(entities_, {}, &Entity::id));
   std::size_t bats = 0;

@@ -161,6 +161,9 @@ class Game {
   /// Makes `journal` list which bodies each event of a game on the exact engine (asserted)
   /// concerns, for as long as the game is played. Never changes the motion.
   friend void observe(const Game& game, physics::WorldJournal& journal);
+  /// What each held key adds to the acceleration of the player's bat [m/s^2]; the player must have
+  /// a seat (asserted).
+  friend double key_thrust(const Game& game, std::uint32_t player);
 
   /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for
   /// equal games.

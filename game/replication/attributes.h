@@ -37,6 +37,9 @@ struct Shape {
   std::uint8_t kind = 0;  ///< a physics::BodyKind
   std::uint8_t team = 0;  ///< a Team
   float half_length = 0.0f, half_width = 0.0f;
+  /// Its own drag [1/s], friction with the table and thrust by each held key [m/s^2], by which
+  /// residuals of its trajectory are coded; 0 for none.
+  float drag = 0.0f, friction = 0.0f, thrust = 0.0f;
 };
 
 /// The number of its player's key events in effect on a bat, and the keys that are down (bit k for
@@ -145,11 +148,16 @@ bool exchange(Stream& stream, Snapshot& snapshot) {
          stream.finite(snapshot.velocity.x()) && stream.finite(snapshot.velocity.y());
 }
 
+inline bool is_strength(float value) { return std::isfinite(value) && value >= 0.0f; }
+
 template <class Stream>
 bool exchange(Stream& stream, Shape& shape) {
   return stream.number(shape.kind) && stream.number(shape.team) &&
          stream.number(shape.half_length) && stream.number(shape.half_width) &&
-         std::isfinite(shape.half_length) && std::isfinite(shape.half_width);
+         stream.number(shape.drag) && stream.number(shape.friction) &&
+         stream.number(shape.thrust) && std::isfinite(shape.half_length) &&
+         std::isfinite(shape.half_width) && is_strength(shape.drag) &&
+         is_strength(shape.friction) && is_strength(shape.thrust);
 }
 
 template <class Stream>

@@ -1,18 +1,22 @@
-// One varint of the count above and the keys that are held below.
+// One varint of the count above and the keys that are held below; as a residual, how many keys more
+// and which one changed.
 #include "game/replication/input_codec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 
 #include "game/replication/attributes.h"
 #include "im/basics/varint.h"
+#include "rti/wire/bit_stream.h"
 
 namespace rink::game {
 namespace {
 
-constexpr unsigned held_bits = 4;
-constexpr std::size_t size_max = 6;  ///< of 36 bits
+constexpr unsigned held_bits = 4, key_bits = 2;  // which of the held keys
+constexpr std::uint32_t more_max = 1023;         ///< keys between two updates
+constexpr std::size_t size_max = 6;              ///< of 36 bits
 
 }  // namespace
 
@@ -39,6 +43,41 @@ bool InputCodec::decode(rti::Bytes coded, double, std::vector<std::byte>& value)
   if (packed >> held_bits > std::numeric_limits<std::uint32_t>::max()) return false;
   Input input{.count = static_cast<std::uint32_t>(packed >> held_bits),
               .held = static_cast<std::uint8_t>(packed & 15u)};
+  rti::Writer writer(value);
+  exchange(writer, input);
+  return true;
+}
+
+bool InputCodec::encode_residual(const rti::ResidualBasis& basis, rti::Bytes value, double,
+                                 rti::BitWriter& bits) const {
+  Input former, input;
+  if (!game::decode(basis.former, former) || !game::decode(value, input) ||
+      former.held >> held_bits != 0 || input.held >> held_bits != 0)
+    return false;
+  const std::uint32_t more = input.count - former.count;  // modulo 2^32
+  if (more > more_max) return false;
+  const unsigned changed = unsigned{former.held} ^ input.held;
+  bits.flag(more == 1);
+  if (more != 1) bits.golomb(more, 0);
+  bits.flag(std::has_single_bit(changed));
+  if (std::has_single_bit(changed))
+    bits.bits(static_cast<unsigned>(std::countr_zero(changed)), key_bits);
+  else bits.bits(input.held, held_bits);
+  return true;
+}
+
+bool InputCodec::decode_residual(const rti::ResidualBasis& basis, double, rti::BitReader& bits,
+                                 std::vector<std::byte>& value) const {
+  Input input;
+  std::uint64_t more = 1;
+  bool is_next = false, is_one = false;
+  unsigned which = 0;
+  if (!game::decode(basis.former, input) || !bits.flag(is_next) ||
+      (!is_next && (!bits.golomb(more, 0) || more > more_max)) || !bits.flag(is_one) ||
+      !bits.bits(which, is_one ? key_bits : held_bits))
+    return false;
+  input.count += static_cast<std::uint32_t>(more);
+  input.held = static_cast<std::uint8_t>(is_one ? unsigned{input.held} ^ 1u << which : which);
   rti::Writer writer(value);
   exchange(writer, input);
   return true;

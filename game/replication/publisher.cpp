@@ -149,10 +149,15 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input,
                              : bounding_box(game.position(entity.id), entity.half_extent));
   ambassador_.commit_region_modifications(published.region);
   ambassador_.associate_regions_for_updates(published.object, published.region);
-  const Shape shape{.kind = static_cast<std::uint8_t>(entity.kind),
-                    .team = static_cast<std::uint8_t>(entity.team),
-                    .half_length = static_cast<float>(entity.half_extent.x()),
-                    .half_width = static_cast<float>(entity.half_extent.y())};
+  const Resistance own = policy_.sent_drag(game.world().spec()).of(entity.kind);
+  const Shape shape{
+      .kind = static_cast<std::uint8_t>(entity.kind),
+      .team = static_cast<std::uint8_t>(entity.team),
+      .half_length = static_cast<float>(entity.half_extent.x()),
+      .half_width = static_cast<float>(entity.half_extent.y()),
+      .drag = static_cast<float>(own.drag),
+      .friction = static_cast<float>(own.friction),
+      .thrust = entity.player ? static_cast<float>(key_thrust(game, *entity.player)) : 0.0f};
   encode(encoded_, shape, input);
   rti::Writer writer(encoded_);
   policy_.write(game, entity, writer);

@@ -14,7 +14,7 @@ using physics::Vector2;
 
 double rounded_to(double step, double value) {
   assert(step > 0.0);
-  return std::nearbyint(value / step) * step;
+  return std::nearbyint(value / step) * step + 0.0;  // no negative zero
 }
 Vector2 rounded_to(double step, const Vector2& value) {
   return {rounded_to(step, value.x()), rounded_to(step, value.y())};
@@ -64,8 +64,10 @@ Trajectory trajectory_of(const physics::World& world, physics::BodyId body) {
     return {.position = rounded_to(trajectory_position_step, world.position(body))};
   const Motion motion = world.motion(body);
   const Resistance own = own_resistance(world, body);
-  const double time = std::floor(world.now() / trajectory_time_step) * trajectory_time_step;
-  assert(time <= world.now() && world.now() - time < trajectory_time_step);
+  const double latest = std::floor(world.now() / trajectory_time_step) * trajectory_time_step,
+               event = rounded_to(trajectory_time_step, motion.time),
+               time = event > latest || event < latest - event_age_max ? latest : event;
+  assert(time <= world.now());
   const Motion there = at_or_before(motion, time);
   Trajectory sent{.time = time,
                   .position = rounded_to(trajectory_position_step, there.position),

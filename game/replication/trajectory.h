@@ -12,7 +12,7 @@ namespace rink::game {
 
 /// A physics::Motion as receivers get it; its acceleration excludes friction, which follows from
 /// the velocity. Its time is a multiple of `trajectory_time_step`, so it may start a little before
-/// the event that it follows.
+/// the event that it follows, or after.
 struct Trajectory {
   static constexpr double of_its_kind =
       -1.0;           ///< a drag that the receiver knows: that of all pucks, or of all bats
@@ -62,12 +62,13 @@ bool exchange(Stream& stream, Trajectory& t) {
 
 /// The steps of rounding. All are powers of two, so that rounded values are exact in every
 /// encoding.
-inline constexpr double trajectory_time_step = 0x1p-4;       ///< s
+inline constexpr double trajectory_time_step = 0x1p-10;      ///< s; an event is told within 0.5 ms
 inline constexpr double trajectory_position_step = 0x1p-11;  ///< m; rounds by at most 0.244 mm
 inline constexpr double trajectory_velocity_step = 0x1p-11;  ///< m/s; rounds by at most 0.244 mm/s
 /// No receiver's trajectory is further than this from the body at any tick [m]: one that rounding
 /// leads away is sent again before.
 inline constexpr double trajectory_error_max = 1e-3;
+inline constexpr double event_age_max = 0.125;  ///< s; a little more than the longest tick
 /// No trajectory is older than this [s], so that a receiver can resolve its abbreviated time
 /// (docs/replication.md).
 inline constexpr double trajectory_age_max = 12.0;
@@ -82,7 +83,8 @@ inline physics::Vector2 single_precision(const physics::Vector2& value) {
   return {single_precision(value.x()), single_precision(value.y())};
 }
 
-/// The trajectory of `body` at world.now(), rounded. It rests if the body is out of play.
+/// The trajectory of `body` at world.now(), rounded, from its last event on if that was less than
+/// `event_age_max` ago, for there it leaves the one before. It rests if the body is out of play.
 Trajectory trajectory_of(const physics::World& world, physics::BodyId body);
 
 /// The rounded trajectory for a receiver that extrapolates a body at `position` [m] with `velocity`

@@ -9,7 +9,9 @@
 
 #include "game/replication/attributes.h"
 #include "game/replication/input_codec.h"
+#include "game/replication/shape_codec.h"
 #include "game/replication/trajectory.h"
+#include "game/replication/trajectory_residual.h"
 #include "rti/wire/bit_stream.h"
 
 namespace rink::game {
@@ -19,7 +21,7 @@ using physics::Vector2;
 
 /// In two bits; a third one, behind that of `full`, makes it `driven`.
 enum Form : std::uint8_t { resting, near, wide, full, driven = 7 };
-constexpr unsigned form_bits = 2, time_bits = 8, near_position_bits = 17, near_velocity_bits = 14,
+constexpr unsigned form_bits = 2, time_bits = 14, near_position_bits = 17, near_velocity_bits = 14,
                    wide_position_bits = 24, wide_velocity_bits = 20;
 constexpr double near_origin =
     1.0;  // m: bodies out of play are up to so far outside the field, on the low side
@@ -136,15 +138,16 @@ void encode_law(const Trajectory& t, std::vector<std::byte>& coded) {
     if (each != Trajectory::of_its_kind) writer.number(each);
 }
 
-constexpr std::size_t wide_size = 13,
+constexpr std::size_t near_size = 10, wide_size = 14,
                       wide_flags_at =
                           form_bits + time_bits + 2 * wide_position_bits + 2 * wide_velocity_bits;
 static_assert(wide_flags_at + 3 <= 8 * wide_size && form_bits + 2 * near_position_bits <= 8 * 5 &&
-              form_bits + time_bits + 2 * near_position_bits + 2 * near_velocity_bits == 8 * 9);
+              form_bits + time_bits + 2 * near_position_bits + 2 * near_velocity_bits <=
+                  8 * near_size);
 
 constexpr unsigned push_bits = 2, push_short_at = 3 + time_bits + 2 * near_position_bits +
                                                   2 * near_velocity_bits + 2 * push_bits;
-constexpr std::size_t driven_size = 10;  // and two or four bytes of acceleration
+constexpr std::size_t driven_size = 11;  // and two or four bytes of acceleration
 static_assert(push_short_at < 8 * driven_size);
 
 /// Along each axis 0, 1 forwards or 2 backwards; then the size: the upper half of a float if the
@@ -206,7 +209,7 @@ std::optional<std::size_t> sent_size(rti::Bytes coded) {
   const unsigned first = static_cast<unsigned>(coded[0]),
                  form = (first & 7u) == driven ? first & 7u : first & 3u;
   if (form == resting) return 5;
-  if (form == near) return 9;
+  if (form == near) return near_size;
   if (form == full) return full_size;
   if (form == driven) {
     if (coded.size() < driven_size) return std::nullopt;
@@ -287,12 +290,32 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
   return true;
 }
 
+bool TrajectoryCodec::encode_residual(const rti::ResidualBasis& basis, rti::Bytes value,
+                                      double time, rti::BitWriter& bits) const {
+  Trajectory former, t;
+  Shape shape;
+  return game::decode(basis.former, former) && game::decode(basis.context, shape) &&
+         game::decode(value, t) && write_residual(bits, former, shape, time, t);
+}
+
+bool TrajectoryCodec::decode_residual(const rti::ResidualBasis& basis, double time,
+                                      rti::BitReader& bits, std::vector<std::byte>& value) const {
+  Trajectory former, t;
+  Shape shape;
+  if (!game::decode(basis.former, former) || !game::decode(basis.context, shape) ||
+      !read_residual(bits, former, shape, time, t))
+    return false;
+  append(value, t);
+  return true;
+}
+
 rti::Fom load_rink_fom(const std::string& path) { return load_rink_fom(std::span(&path, 1)); }
 
 rti::Fom load_rink_fom(std::span<const std::string> paths) {
   rti::Fom fom = rti::Fom::load(paths);
   fom.use_codec("Trajectory", std::make_shared<TrajectoryCodec>());
   fom.use_codec("Input", std::make_shared<InputCodec>());
+  fom.use_codec("Shape", std::make_shared<ShapeCodec>());
   return fom;
 }
 

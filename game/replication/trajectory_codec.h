@@ -10,14 +10,20 @@
 namespace rink::game {
 
 /// Codes the object model's type Trajectory without loss (docs/replication.md, "The codec"):
-/// rounded ones (game/replication/trajectory.h) in 5, 9, 12 or 13 bytes and more for unusual laws,
-/// all others in full.
+/// rounded ones (game/replication/trajectory.h) in 5, 10, 13 or 14 bytes and more for unusual laws,
+/// all others in full; after another one mostly as its residual.
 class TrajectoryCodec : public rti::AttributeCodec {
  public:
-  std::string name() const override { return "rink-trajectory-2"; }
+  std::string name() const override { return "rink-trajectory-3"; }
   void encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const override;
   std::optional<std::size_t> size(rti::Bytes coded) const override;
   bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;
+  bool has_residuals() const override { return true; }
+  std::string_view context_type() const override { return "Shape"; }
+  bool encode_residual(const rti::ResidualBasis& basis, rti::Bytes value, double time,
+                       rti::BitWriter& bits) const override;
+  bool decode_residual(const rti::ResidualBasis& basis, double time, rti::BitReader& bits,
+                       std::vector<std::byte>& value) const override;
 };
 
 /// The object model at `path` with Rink's codecs. Throws rti::FileError.

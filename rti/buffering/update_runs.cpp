@@ -16,6 +16,7 @@ UpdateRun& UpdateRuns::begin(const ObjectUpdate& update) {
   run.object_class = update.object.object_class;
   run.attributes = update.attributes;
   run.stamp = update.stamp;
+  run.has_residuals = false;
   UpdatesMessage header{run.object_class, run.attributes.bits};
   write(run.message, header);
   run.first_word = static_cast<std::size_t>(-1);
@@ -49,7 +50,13 @@ void UpdateRuns::append(const ObjectUpdate& update) {
   run.slots.push_back(slot);
   write_handle(run.message, run.records.empty() ? 0 : run.records.back().handle, handle);
   run.records.push_back({handle, static_cast<std::uint32_t>(run.message.size()),
-                         static_cast<std::uint32_t>(values.size())});
+                         static_cast<std::uint32_t>(values.size()),
+                         static_cast<std::uint32_t>(run.residuals.size()), update.residual.size});
+  if (update.residual.size != 0) {
+    run.residuals.insert(run.residuals.end(), update.residual.bits.begin(),
+                         update.residual.bits.end());
+    run.has_residuals = true;
+  }
   run.message.insert(run.message.end(), values.begin(), values.end());
   run.members.insert(slot);
   run.first_word = std::min<std::size_t>(run.first_word, slot / 64);
@@ -94,6 +101,7 @@ void UpdateRuns::clear() {
     run.slots.clear();
     run.records.clear();
     run.message.clear();
+    run.residuals.clear();
   }
   size_ = 0;
   assert(!checks_whole_structures ||

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "rti/baselines/residual_states.h"
 #include "rti/objects/bitmap.h"
 #include "rti/objects/object_table.h"
 #include "rti/wire/bytes.h"
@@ -19,7 +20,8 @@ struct ObjectUpdate {
   const Object& object;  ///< the one in `slot`
   AttributeSet attributes;
   Stamp stamp;
-  Bytes values;  ///< as they travel
+  Bytes values;         ///< as they travel
+  Residual residual{};  ///< if they may travel so, too
 };
 
 /// Updates of one owner, class, attribute set and stamp; at most one of each object.
@@ -27,6 +29,8 @@ struct UpdateRun {
   /// One object's values as they travel, in `message`.
   struct Record {
     std::uint32_t handle = 0, at = 0, size = 0;
+    std::uint32_t residual_at = 0,  ///< in `residuals`
+        residual_size = 0;          ///< bits; 0 if there is none
   };
   std::uint32_t owner = 0;
   std::uint16_t object_class = 0;
@@ -36,6 +40,8 @@ struct UpdateRun {
                                    ///< `seal` puts at its end
   std::vector<ObjectSlot> slots;   ///< of the records, in their order
   std::vector<Record> records;
+  std::vector<std::byte> residuals;  ///< of the records, each from a byte on
+  bool has_residuals = false;
   Bitmap members;                             ///< the same slots
   std::size_t first_word = 0, last_word = 0;  ///< of `members` that may hold any
   std::vector<std::uint32_t> record_of;  ///< by slot: index into `slots`; for members only, after

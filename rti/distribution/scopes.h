@@ -28,6 +28,9 @@ struct FederateInterest {
   Bitmap in_scope;          ///< of the last match
   Bitmap needs_full_state;  ///< came into scope since the last flush: the full state is due
   bool needs_any_full_state = false;
+  Bitmap holds_static;  ///< objects whose static values it was sent since it discovered them
+  Bitmap holds_former;  ///< of those in scope whose full state is not due, the objects to whose
+                        ///< values at the federate residuals may refer
   std::vector<ScopeEvent> events;  ///< since the last flush
   Bitmap unannounced;  ///< in scope, to be announced by a later flush; they keep `needs_full_state`
                        ///< until then

@@ -7,6 +7,7 @@
 #include "rti/federate/books/ownership_book.h"
 #include "rti/federate/delivery/callback_gate.h"
 #include "rti/federate/delivery/link_watch.h"
+#include "rti/federate/delivery/residual_reader.h"
 #include "rti/federate/delivery/sent_updates.h"
 #include "rti/federate/delivery/update_arrivals.h"
 
@@ -24,7 +25,8 @@ struct AmbassadorGround {
         classes(fom),
         sent(fom),
         arrivals(fom),
-        ownership(basis(), objects, regions) {}
+        ownership(basis(), objects, regions),
+        residuals(basis(), objects, arrivals) {}
   AmbassadorGround(const AmbassadorGround&) = delete;
   AmbassadorGround& operator=(const AmbassadorGround&) = delete;
 
@@ -42,6 +44,7 @@ struct AmbassadorGround {
   SentUpdates sent;
   UpdateArrivals arrivals;
   OwnershipBook ownership;
+  ResidualReader residuals;
 };
 
 }  // namespace rink::rti

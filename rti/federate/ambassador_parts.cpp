@@ -18,8 +18,9 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
       declarations(ground.basis(), {ground.objects, ground.regions, ground.classes,
                                     ground.ownership, sparing, sender}),
       names(ground.basis(), ground.objects),
-      objects(ground.basis(), {ground.classes, declarations, ground.objects, names,
-                               ground.ownership, ground.regions, ground.arrivals, sparing, sender}),
+      objects(ground.basis(),
+              {ground.classes, declarations, ground.objects, names, ground.ownership,
+               ground.regions, ground.arrivals, sparing, sender, ground.residuals}),
       transportation(ground.basis(), {ground.objects, ground.ownership, ground.classes, sender}),
       regions(ground.basis(), {ground.regions, ground.objects, ground.ownership, updates, objects}),
       time(ground.basis(),
@@ -27,7 +28,7 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
       synchronization(ground.basis()),
       questions(ground.basis()),
       session(ground.basis(), ground.phase),
-      update_receiver(ground.basis(), ground.objects, ground.arrivals),
+      update_receiver(ground.basis(), ground.objects, ground.arrivals, ground.residuals),
       keyframes(ground.basis(), ground.objects, ground.arrivals),
       datagrams(ground.basis(), {ground.watch, ground.arrivals, update_receiver, sender}),
       postponed_(fom) {}
@@ -210,7 +211,8 @@ std::size_t AmbassadorParts::memory_bytes() const {
                               regions.memory_bytes() + time.memory_bytes();
   const std::size_t receiving = ground.gate.memory_bytes() + incoming_.memory_bytes() +
                                 postponed_.memory_bytes() + update_receiver.memory_bytes() +
-                                keyframes.memory_bytes() + datagrams.memory_bytes();
+                                keyframes.memory_bytes() + datagrams.memory_bytes() +
+                                ground.residuals.memory_bytes();
   return books + sending + receiving;
 }
 

@@ -149,6 +149,9 @@ class FederateMessageTable {
     at(Kind::stamp) = [](Parts&, Reader& reader, ReadContext& context) {
       return UpdateReceiver::handle_stamp(reader, context);
     };
+    at(Kind::stamp_step) = [](Parts& parts, Reader& reader, ReadContext& context) {
+      return parts.update_receiver.handle_stamp_step(reader, context);
+    };
     at(Kind::updates) = [](Parts& parts, Reader& reader, ReadContext& context) {
       return parts.update_receiver.handle_updates(reader, context);
     };
@@ -157,6 +160,9 @@ class FederateMessageTable {
     };
     at(Kind::deltas) = [](Parts& parts, Reader& reader, ReadContext& context) {
       return parts.keyframes.handle_deltas(reader, context);
+    };
+    at(Kind::residuals) = [](Parts& parts, Reader& reader, ReadContext& context) {
+      return parts.ground.residuals.handle(reader, context);
     };
     at(Kind::interaction) = [](Parts& parts, Reader& reader, ReadContext& context) {
       return parts.update_receiver.handle_interaction(reader, context);

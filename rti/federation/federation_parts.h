@@ -8,6 +8,7 @@
 #include "rti/federation/connections.h"
 #include "rti/federation/delivery/announcements.h"
 #include "rti/federation/delivery/periodic_writer.h"
+#include "rti/federation/delivery/residual_writer.h"
 #include "rti/federation/delivery/sender.h"
 #include "rti/federation/delivery/turn_writer.h"
 #include "rti/federation/expulsion.h"
@@ -54,6 +55,7 @@ class FederationParts final : private FrameHandler {
   Announcements announcements;
   PeriodicWriter periodic;
   TurnWriter turns;
+  ResidualWriter residuals;
   Sender sender;
   TimeService time;
   ManagementObjects management_objects;

@@ -20,6 +20,7 @@
 #include "rti/ownership/holding.h"
 #include "rti/types.h"
 #include "rti/wire/bytes.h"
+#include "rti/wire/stamp_steps.h"
 
 namespace rink::rti {
 
@@ -36,6 +37,7 @@ struct JoinedFederate {
   std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
   FederateCounts counts;         ///< what is counted as it happens; `report` adds the rest
   std::uint32_t frames = 0;      ///< sent to it
+  StampSteps stamp_steps;        ///< of these frames
   bool has_stream_only = false;  ///< no datagrams, whatever its connection could carry
   std::unique_ptr<DatagramChannel> channel;  ///< null until it has one
 };

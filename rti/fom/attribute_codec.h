@@ -5,11 +5,21 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
+
+class BitReader;
+class BitWriter;
+
+/// What both ends hold of an object when an attribute of it travels as a residual; as in memory.
+struct ResidualBasis {
+  Bytes former;   ///< the attribute's value before
+  Bytes context;  ///< the value of the attribute that the codec names, empty if it names none
+};
 
 /// Codes the values of one data type on their way. Federates give and receive values as the object
 /// model defines them; only between them are values coded. Without a codec a value travels as it
@@ -18,7 +28,8 @@ namespace rink::rti {
 /// A coded value must show its own end and must be readable without any other: the RTI cuts blocks,
 /// keeps the latest value and gives it to late joiners, and never decodes. So a codec depends on
 /// the value and on logical time alone, never on what was sent before or to whom, and nothing
-/// breaks when updates are left out.
+/// breaks when updates are left out. Residuals are the exception: the RTI gives them only to
+/// federates that hold the value before (docs/wire.md, "Residuals").
 class AttributeCodec {
  public:
   virtual ~AttributeCodec() = default;
@@ -36,6 +47,24 @@ class AttributeCodec {
   /// the newest update known when it was sent on: never before that of `encode`, and much later for
   /// a receiver without updates for long.
   virtual bool decode(Bytes coded, double time, std::vector<std::byte>& value) const = 0;
+
+  /// True of codecs that also code a value as bits that say what the basis does not tell.
+  virtual bool has_residuals() const { return false; }
+  /// The data type of the attribute of the same class that residuals need; empty for none. Types of
+  /// varying size don't count.
+  virtual std::string_view context_type() const { return {}; }
+  /// Appends the residual of `value`; false, with nothing appended, if it must travel whole. The
+  /// result depends on the arguments alone, bit for bit, on any machine.
+  virtual bool encode_residual(const ResidualBasis& /*basis*/, Bytes /*value*/, double /*time*/,
+                               BitWriter& /*bits*/) const {
+    return false;
+  }
+  /// Appends the value; false if the bits are malformed or not all there. `time` is that of
+  /// `encode_residual`.
+  virtual bool decode_residual(const ResidualBasis& /*basis*/, double /*time*/, BitReader& /*bits*/,
+                               std::vector<std::byte>& /*value*/) const {
+    return false;
+  }
 };
 
 }  // namespace rink::rti

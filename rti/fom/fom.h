@@ -27,6 +27,7 @@ struct Attribute {
   std::optional<std::uint32_t> size;  ///< encoded size [bytes]; nothing if it varies
   Transportation transportation = Transportation::reliable;
   Order order = Order::receive;
+  bool is_static = false;                       ///< given one value for good
   DimensionSet dimensions;                      ///< the dimensions of its regions
   std::shared_ptr<const AttributeCodec> codec;  ///< null: values travel as they are
   std::shared_ptr<const QuantisedCodec>

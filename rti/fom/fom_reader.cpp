@@ -188,6 +188,7 @@ Attribute FomReader::read_attribute(const Node& node, const ObjectClass& owner) 
   attribute.dimensions = dimensions_of(node);
   const bool is_first = std::ranges::none_of(
       owner.attributes, [](const Attribute& other) { return other.baselines != nullptr; });
+  attribute.is_static = text_or(node, "updateType", "NA") == "Static";
   quantise(attribute, is_first && text_or(node, "updateType", "NA") == "Periodic");
   return attribute;
 }

@@ -25,6 +25,8 @@ ObjectTable::ObjectTable(const Fom& fom) : fom_(fom) {
       const std::optional<std::uint32_t> size = is_fixed(attribute) ? attribute.size : std::nullopt;
       layout.fixed_size += size.value_or(0);
       layout.has_varying |= !size;
+      if (attribute.is_static)
+        layout.statics.insert({static_cast<std::uint32_t>(layout.offsets.size() - 1)});
     }
   }
 }
@@ -151,6 +153,7 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
     coded = coded.subspan(size);
   }
   assert(coded.empty());
+  object.changed_static = object.changed_static | (set & object.valued & layout.statics);
   object.valued = object.valued | set;
 }
 

@@ -25,9 +25,10 @@ struct Object {
   std::uint32_t negotiation = no_negotiation;  ///< the ownership's record, if it has one
   std::uint16_t object_class = 0;
   bool is_alive = false;
-  bool is_leaving = false;  ///< deleted at a logical time that some have not reached: not
-                            ///< discovered any more
-  AttributeSet valued;      ///< attributes that have a value
+  bool is_leaving = false;      ///< deleted at a logical time that some have not reached: not
+                                ///< discovered any more
+  AttributeSet valued;          ///< attributes that have a value
+  AttributeSet changed_static;  ///< static ones that were given a second value all the same
   std::string name;
   std::vector<std::byte> fixed;  ///< coded values of fixed size, at the class's offsets
   std::vector<std::vector<std::byte>> varying;  ///< coded values of varying size, by attribute
@@ -74,6 +75,15 @@ class ObjectTable {
   void store(ObjectSlot slot, AttributeSet set, Bytes coded);
   /// Appends the coded values of `set`, all of which must be valued.
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
+  /// The static attributes of the object if each has the only value that it ever had: who was sent
+  /// them needs them no more.
+  AttributeSet settled_static(ObjectSlot slot) const {
+    const Object& object = objects_[slot];
+    const AttributeSet statics = layouts_[object.object_class].statics;
+    const bool is_settled =
+        object.valued.includes(statics) && (object.changed_static & statics).is_empty();
+    return is_settled ? statics : AttributeSet();
+  }
   /// The bytes that `append` would append.
   std::size_t size_of(ObjectSlot slot, AttributeSet set) const;
   /// Asserts that handles and slots lead to each other, that each slot is alive, leaving or free,
@@ -92,6 +102,7 @@ class ObjectTable {
     std::vector<std::uint32_t> offsets;  ///< of fixed attributes
     std::uint32_t fixed_size = 0;
     bool has_varying = false;
+    AttributeSet statics;
   };
   std::vector<Layout> layouts_;  ///< by class
   const Fom& fom_;

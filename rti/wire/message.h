@@ -20,7 +20,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 9;
+inline constexpr std::uint16_t protocol_version = 10;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
@@ -112,6 +112,8 @@ enum class MessageKind : std::uint8_t {
   // baselines
   begin_keyframe = 110,
   deltas = 111,
+  residuals = 114,
+  stamp_step = 115,
   ownership_notice = 92,
   inform_ownership = 93,
   // admission
@@ -127,7 +129,7 @@ enum class MessageKind : std::uint8_t {
   object_relevance = 106,
   transportation = 107,
   // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and
-  // declarations, 114 to 117 regions, 123 to 127 the connection
+  // declarations, 116 and 117 regions, 123 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -174,8 +176,9 @@ bool exchange(Stream& stream, ObjectHandleMessage<k>& message) {
 }
 using DeleteObjectMessage = ObjectHandleMessage<MessageKind::delete_object>;
 using RemoveObjectMessage = ObjectHandleMessage<MessageKind::remove_object>;
-using InScopeMessage = ObjectHandleMessage<MessageKind::in_scope>;
-using OutOfScopeMessage = ObjectHandleMessage<MessageKind::out_of_scope>;
+/// Blocks of objects (rti/wire/object_block.h).
+using InScopeMessage = BareMessage<MessageKind::in_scope>;
+using OutOfScopeMessage = BareMessage<MessageKind::out_of_scope>;
 
 /// First how many bytes of time and tag follow, four bits each, then these: the highest of the
 /// time, since an instant on a binary grid ends in zeros, and the lowest of the tag. An instant of

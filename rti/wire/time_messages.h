@@ -11,7 +11,7 @@ namespace rink::rti {
 /// to wait.
 inline bool is_receive_ordered(MessageKind kind) {
   return kind == MessageKind::updates || kind == MessageKind::interaction ||
-         kind == MessageKind::remove_object;
+         kind == MessageKind::remove_object || kind == MessageKind::residuals;
 }
 
 /// The longest message inside a `TimedMessage`: the longest values or parameters and what precedes

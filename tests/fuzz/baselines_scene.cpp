@@ -90,7 +90,7 @@ class Sound final : public Outlet {
       for (const ObjectHandle each : boats) {
         victim_->receive(framed(DiscoverObjectMessage{
             each.value, static_cast<std::uint16_t>(rti::testing::boat.value), "boat"}));
-        victim_->receive(framed(InScopeMessage{each.value}));
+        victim_->receive(framed(rti::testing::OneObject<MessageKind::in_scope>{each.value}));
       }
     }
     if (changes != 0 && frame.size() > frame_header_size)

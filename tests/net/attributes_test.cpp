@@ -33,18 +33,21 @@ std::vector<std::byte> after(std::vector<std::byte> head, const std::vector<std:
 }
 
 TEST(Attributes, OfPlacesAreNumbers) {
-  const std::vector<std::byte> bat(4), kind_and_team(2);
+  const std::vector<std::byte> bat(4), kind_and_team(2), no_strengths(12);
   EXPECT_TRUE(is_taken<Position>(bytes_of(-1.0f, 2.0f)));
   EXPECT_TRUE(is_taken<SeatOffer>(after(bat, bytes_of(-1.0f, 2.0f))));
   EXPECT_TRUE(is_taken<Extent>(bytes_of(1.0f, 2.0f)));
-  EXPECT_TRUE(is_taken<Shape>(after(kind_and_team, bytes_of(0.0f, 0.1f))));
+  const auto shape = [&](const std::vector<std::byte>& halves) {
+    return after(after(kind_and_team, halves), no_strengths);
+  };
+  EXPECT_TRUE(is_taken<Shape>(shape(bytes_of(0.0f, 0.1f))));
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (const float none : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity})
     for (const auto& bytes : {bytes_of(1.0f, none), bytes_of(none, 1.0f)}) {
       EXPECT_FALSE(is_taken<Position>(bytes)) << none;
       EXPECT_FALSE(is_taken<SeatOffer>(after(bat, bytes))) << none;
       EXPECT_FALSE(is_taken<Extent>(bytes)) << none;
-      EXPECT_FALSE(is_taken<Shape>(after(kind_and_team, bytes))) << none;
+      EXPECT_FALSE(is_taken<Shape>(shape(bytes))) << none;
     }
 }
 

@@ -139,10 +139,15 @@ class ScanningPublisher {
           each.region, sweep_.is_on() ? sweep_.region(game.world(), entity.id, each.swept) : box);
       ambassador_.commit_region_modifications(each.region);
       ambassador_.associate_regions_for_updates(each.object, each.region);
-      Shape shape{.kind = static_cast<std::uint8_t>(entity.kind),
-                  .team = static_cast<std::uint8_t>(entity.team),
-                  .half_length = static_cast<float>(entity.half_extent.x()),
-                  .half_width = static_cast<float>(entity.half_extent.y())};
+      const Resistance own = policy_.sent_drag(game.world().spec()).of(entity.kind);
+      Shape shape{
+          .kind = static_cast<std::uint8_t>(entity.kind),
+          .team = static_cast<std::uint8_t>(entity.team),
+          .half_length = static_cast<float>(entity.half_extent.x()),
+          .half_width = static_cast<float>(entity.half_extent.y()),
+          .drag = static_cast<float>(own.drag),
+          .friction = static_cast<float>(own.friction),
+          .thrust = entity.player ? static_cast<float>(key_thrust(game, *entity.player)) : 0.0f};
       encode(encoded_, shape, input);
       rti::Writer motion(encoded_);
       policy_.write(game, entity, motion);

@@ -2,6 +2,7 @@
 // hash, its digest, and every value of a recorded session.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <deque>
@@ -152,6 +153,17 @@ Trajectory trajectory_of(int kind, double now, std::mt19937_64& random) {
   return t;
 }
 
+/// One that stays near its place, so that it travels as a residual to the one before.
+Trajectory lingering(int kind, double now, std::mt19937_64& random) {
+  const auto step = [&random] { return static_cast<double>(random() % 512) / 2048.0 - 0.125; };
+  const double time = std::floor(now * 1024.0 - static_cast<double>(random() % 16)) / 1024.0;
+  Trajectory t{
+      .time = std::max(time, 0.0), .position = {5.0 + step(), 6.0}, .velocity = {step(), step()}};
+  if (kind == 0) return {.position = t.position};
+  if (kind >= 3) t.acceleration = {kind >= 5 ? 2.5 : 0.0, -2.5};
+  return t;
+}
+
 TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntityByTheWirePage) {
   if (!rti::testing::has_python()) GTEST_SKIP() << "there is no python3";
   const ObjectModel names(model());
@@ -182,16 +194,26 @@ TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntit
     count = tick % 5 == 0 ? 0xffffffffu : count * 7 + 11;
     if (tick < 14) {
       entities.push_back(rink.register_object_instance(names.entity));
-      rink.update_attribute_values(
-          entities.back(), first,
-          encode(buffer, Shape{.kind = 1, .team = 2, .half_length = 0.1f, .half_width = 0.2f},
-                 input_of(tick), trajectory_of(kind, stamp.time, random)),
-          stamp);
+      rink.update_attribute_values(entities.back(), first,
+                                   encode(buffer,
+                                          Shape{.kind = 1,
+                                                .team = 2,
+                                                .half_length = 0.1f,
+                                                .half_width = 0.2f,
+                                                .drag = tick % 2 == 0 ? 0.25f : 0.0f,
+                                                .friction = tick % 4 < 2 ? 0.0f : 0.4f,
+                                                .thrust = 2.5f},
+                                          input_of(tick), trajectory_of(kind, stamp.time, random)),
+                                   stamp);
     }
     for (const rti::ObjectHandle each : entities) {
-      rink.update_attribute_values(
-          each, on_event, encode(buffer, input_of(tick), trajectory_of(kind, stamp.time, random)),
-          stamp);
+      if (each.value % 2 == 0)
+        rink.update_attribute_values(
+            each, on_event, encode(buffer, input_of(tick), trajectory_of(kind, stamp.time, random)),
+            stamp);
+      else
+        rink.update_attribute_values(each, {names.trajectory},
+                                     encode(buffer, lingering(kind, stamp.time, random)), stamp);
       rink.update_attribute_values(
           each, periodic, encode(buffer, Position{0.5f * static_cast<float>(tick), 3.0f}), stamp);
       const double x = each.value == entities.front().value
@@ -211,6 +233,7 @@ TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntit
   EXPECT_EQ(beginning_with(lines, "1d reflect "), session.scribes[1].reflected) << lines.back();
   EXPECT_GT(session.scribes[1].reflected.size(), 64u * 14);
   EXPECT_GT(session.execution.baseline_counters().differences_sent, 100u);
+  EXPECT_GT(session.execution.counters().residuals_sent, 300u);
 }
 
 TEST(SecondReaderOfTheShippedModel, FindsItsHashByTheWirePage) {

@@ -4,10 +4,12 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "game/replication/attributes.h"
 #include "game/replication/input_codec.h"
+#include "game/replication/shape_codec.h"
 #include "game/replication/trajectory.h"
 #include "game/replication/trajectory_codec.h"
 
@@ -37,7 +39,7 @@ Trajectory travelled(const Trajectory& sent, double time, double read_time,
 double on_grid(double step, double value) { return std::nearbyint(value / step) * step; }
 Vector2 on_grid(double step, double x, double y) { return {on_grid(step, x), on_grid(step, y)}; }
 
-TEST(TrajectoryCodec, RoundedMotionOnAFieldTakesNineBytesAndRestFive) {
+TEST(TrajectoryCodec, RoundedMotionOnAFieldTakesTenBytesAndRestFive) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> x(0.0, 60.0), v(-1.9, 1.9), t(0.0, 5000.0);
   for (int i = 0; i < 2000; ++i) {
@@ -47,7 +49,7 @@ TEST(TrajectoryCodec, RoundedMotionOnAFieldTakesNineBytesAndRestFive) {
                       .velocity = on_grid(trajectory_velocity_step, v(random), v(random))};
     std::size_t size = 0;
     ASSERT_EQ(travelled(moving, time, time + trajectory_age_max, &size), moving);
-    ASSERT_EQ(size, 9u);
+    ASSERT_EQ(size, 10u);
     const Trajectory resting{.position = moving.position};
     ASSERT_EQ(travelled(resting, time, time + 1e6, &size), resting)
         << "rest has no time, so it is never too old";
@@ -87,28 +89,81 @@ TEST(TrajectoryCodec, AccelerationAndUnusualDragAreAddedOnlyWhereThereAreAny) {
   Trajectory t{.time = 2.0, .position = {1.0, 1.0}, .velocity = {0.5, 0.25}};
   t.velocity.x() = 8.0;
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 13u);
+  EXPECT_EQ(size, 14u);
   t.acceleration = {0.0, 4.0};
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 21u);
+  EXPECT_EQ(size, 22u);
   t.velocity.x() = 0.5;
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 12u) << "a thrust along one axis, which half a float can say";
+  EXPECT_EQ(size, 13u) << "a thrust along one axis, which half a float can say";
   t.acceleration = {-4.0, 4.0};
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 12u);
+  EXPECT_EQ(size, 13u);
   t.acceleration = {-single_precision(9.81), 0.0};
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 14u);
+  EXPECT_EQ(size, 15u);
   t.acceleration = {4.0, 3.0};
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 21u);
+  EXPECT_EQ(size, 22u);
   t.drag.x() = 0.125;
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
-  EXPECT_EQ(size, 29u);
+  EXPECT_EQ(size, 30u);
   t.position.x() = 1e-9;
   EXPECT_EQ(travelled(t, 2.0, 2.0, &size), t);
   EXPECT_EQ(size, 73u);
+}
+
+TEST(ShapeCodec, LosesNothingAndIsShortForNumbersOfFewDecimals) {
+  const unsigned seed = 4;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  const ShapeCodec codec;
+  std::vector<std::byte> value, coded, read;
+  const auto travels = [&](const Shape& shape) {
+    encode(value, shape);
+    coded.clear(), read.clear();
+    codec.encode(value, 0.0, coded);
+    EXPECT_EQ(codec.size(coded), coded.size());
+    EXPECT_TRUE(codec.decode(coded, 0.0, read));
+    EXPECT_EQ(read, value) << "bit for bit";
+    for (std::size_t size = 0; size < coded.size(); ++size)
+      EXPECT_EQ(codec.size(rti::Bytes(coded).first(size)), std::nullopt) << size;
+    return coded.size();
+  };
+  const Shape puck{.half_length = 0.03f, .half_width = 0.03f, .drag = 0.25f};
+  EXPECT_EQ(travels(puck), 10u);
+  Shape bat = puck;
+  bat.kind = 1;
+  bat.thrust = 4.9f;
+  EXPECT_EQ(travels(bat), 12u);
+  EXPECT_EQ(travels({.half_length = -0.0f}), 11u) << "another zero";
+  for (int i = 0; i < 20000; ++i) {
+    const auto any = [&random] {
+      float number = 0.0f;
+      const auto bits = static_cast<std::uint32_t>(random() >> 1) & 0x7fffffffu;
+      std::memcpy(&number, &bits, sizeof number);
+      if (random() % 2 == 0) number = static_cast<float>(random() % 100000) / 1e4f;
+      return std::isfinite(number) ? number : 0.5f;
+    };
+    travels({static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()), any(), any(),
+             any(), any(), any()});
+  }
+}
+
+TEST(ShapeCodec, RandomBytesAreRefusedOrGiveAShape) {
+  std::mt19937_64 random(5);
+  const ShapeCodec codec;
+  std::vector<std::byte> value;
+  for (int i = 0; i < 100000; ++i) {
+    std::vector<std::byte> noise(random() % 26);
+    for (std::byte& byte : noise)
+      byte = static_cast<std::byte>(random() % 3 == 0 ? 1 : random() & 0x7f);
+    value.clear();
+    Shape shape;
+    const bool is_shape = codec.decode(noise, 0.0, value);
+    ASSERT_EQ(is_shape, decode(value, shape));
+    ASSERT_EQ(is_shape, !value.empty());
+  }
 }
 
 TEST(InputCodec, LosesNothingAndGrowsWithTheCount) {

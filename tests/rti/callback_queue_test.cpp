@@ -59,7 +59,7 @@ TEST(CallbackQueue, EvokedOneByOneTheyAreThoseOfTheImmediateModelInTheirOrder) {
   pair.tell(JoinedMessage{4, 1});
   pair.tell(FederateJoinedMessage{4, "pair", "tester"},
             AnnounceSynchronizationPointMessage{"start", tag},
-            DiscoverObjectMessage{5, 1, "Aurora"}, InScopeMessage{5});
+            DiscoverObjectMessage{5, 1, "Aurora"}, OneObject<MessageKind::in_scope>{5});
   pair.tell(InteractionMessage{1, 2, {1.5, 9}, words},
             FederationSynchronizedMessage{"start", list_of(failed)},
             FederateResignedMessage{4, 1, "pair", "tester"});

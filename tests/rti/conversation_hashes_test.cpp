@@ -22,13 +22,13 @@ Hashes sail(const Course& course, std::uint64_t seed = 1) {
 
 TEST(ConversationHashes, OfDeclarations) {
   EXPECT_EQ(sail({{declare, declare, declare, register_one, update, say}, stand_by}),
-            (Hashes{0xf7e8aa4cf106ba5eu, 0x3b9c98b524d084c7u, 0xb5719ffc71389c07u,
-                    0xe0da44bd09d7ab4du, 0x8dbe0b6a16f33382u, 0x861696199bd63c34u}));
+            (Hashes{0x389a6f3ad939a045u, 0x607282f60a9eb8cfu, 0x244f55c920508e6eu,
+                    0xf23516c6564a5284u, 0x1b12f140e8d4be7du, 0x9f625bde6da761b5u}));
 }
 TEST(ConversationHashes, OfObjects) {
   EXPECT_EQ(sail({{register_one, update, update, delete_one, name, ask}}),
-            (Hashes{0x0b6067d27f5ffc3bu, 0x97dbff3633f3dad5u, 0xaa1df9cc04fee6b1u,
-                    0x420555deeaacfa72u, 0xcc611712eb754c33u, 0x81a725223527927cu}));
+            (Hashes{0x195256915bc282c6u, 0x1c4a5019b840479du, 0x30e7e75a376a9d2fu,
+                    0xa764d4f40ca04996u, 0xcf1ca215292a85a7u, 0xf1570c8395cc9bf9u}));
 }
 TEST(ConversationHashes, OfInteractions) {
   EXPECT_EQ(sail({{say, say, say, declare}, prepare, 200}),
@@ -37,13 +37,13 @@ TEST(ConversationHashes, OfInteractions) {
 }
 TEST(ConversationHashes, OfOwnership) {
   EXPECT_EQ(sail({{trade, trade, trade, trade, register_one, update, declare}}),
-            (Hashes{0x75b8c0793b58694eu, 0x33dc48b4d30b4c57u, 0x7f56d0cf803df08fu,
-                    0xbf572f0ef7e5a04eu, 0x19bf23e1732b893au, 0x11417c6d330acb8eu}));
+            (Hashes{0x7755c8d5200898a3u, 0xd71f2b5840f2f8f8u, 0x4dae20759e5b9fccu,
+                    0x77aea44d981c6e15u, 0x3913b95b3269dd0au, 0x63f72bc8587c8f82u}));
 }
 TEST(ConversationHashes, OfLeaving) {
   EXPECT_EQ(sail({{register_one, trade, trade, update, synchronize, name, watch}, prepare, 12}),
-            (Hashes{0x70a448333507e0aau, 0xbefc897ac40bb68fu, 0x1f5d75d6e9b5c96au,
-                    0xfc4bb3b8e00c32f2u, 0xd986d1b27f1ea992u, 0x02b0da29225ef4dfu}));
+            (Hashes{0x8538526d46099579u, 0x3066488ab898d647u, 0x18874b94de04e629u,
+                    0xb4cb08afba614ed9u, 0x80e917ecf75f5013u, 0xfa5363e80714355fu}));
 }
 TEST(ConversationHashes, OfRegions) {
   EXPECT_EQ(sail({{make_region, use_region, use_region, use_region, register_one, update, say},
@@ -52,68 +52,68 @@ TEST(ConversationHashes, OfRegions) {
                   0,
                   false,
                   filtered("region")}),
-            (Hashes{0x5224a13c5b648b6bu, 0x7e7f322728995027u, 0x4c9f0bbb8cfdbdd2u,
-                    0x89208efc0bd83f46u, 0x8a5373891a9c8cbbu, 0x8317c6f4381f0f11u}));
+            (Hashes{0x7618889c117f2c99u, 0x1725cad23688443fu, 0xc3471bf35763c0a9u,
+                    0xa09dbaf36e99b9e8u, 0x3c23386b8e646deeu, 0x9bbdfe1e23a2f609u}));
   EXPECT_EQ(sail({{make_region, use_region, use_region, register_one, update, declare, trade},
                   prepare,
                   40,
                   0,
                   false,
                   filtered("region")}),
-            (Hashes{0x242af93fc7620d4du, 0x79dfa4419b0a4ae5u, 0xabbe7c0bd5db2cc6u,
-                    0x073ae16f0ddf6d95u, 0x82519e8c1e906b67u, 0x186b72298aa337dcu}));
+            (Hashes{0xd3387f56cfafb8b4u, 0xba4cb7f922f47fe0u, 0xb857abae09c9ca20u,
+                    0xaf1d2d2e8ca33c5cu, 0xc63c957f62fb7065u, 0x0731b63d5f41a27fu}));
 }
 TEST(ConversationHashes, OfTiersAndBudgets) {
   const std::vector<Service> services{make_region, use_region, use_region,  use_region,
                                       update,      update,     register_one};
   EXPECT_EQ(sail({services, publish_all, 0, 0, false,
                   filtered("region with tiers(at=0.25 at=0.5 at=0.75)")}),
-            (Hashes{0x9d77f247dc41ccecu, 0xc83a0d957468492fu, 0x9234b1ffd92c6b47u,
-                    0x0be2a9326c62a956u, 0x1650a7f159041417u, 0x043d655362236fbcu}));
+            (Hashes{0x9c57af9964aea61eu, 0x0b3c88a1cf3cc0a9u, 0x05baf9d95dcaef41u,
+                    0x4a8ce16ff55e82f5u, 0xd9a0fe8a1923d5a3u, 0xde780b39e82623c0u}));
   EXPECT_EQ(
       sail({services, publish_all, 60, 300, true, filtered("region with priority(budget=60)")}),
-      (Hashes{0x246f16e536c28a0au, 0x4e1d74b9bc288720u, 0x3f3374ec80aae2d4u, 0x6b727bb79c6f4d35u,
-              0x7e0b487c292b3398u, 0x4403116967606c4du}));
+      (Hashes{0x953a06dc3838a5bfu, 0xde4fd5ee7fa556bfu, 0x164349490e27fd1cu, 0x8f3c608c9d196547u,
+              0x1dc1422f6ee63c83u, 0x3578073de9bfe9e5u}));
 }
 TEST(ConversationHashes, OfTimeManagement) {
   const std::vector<Service> services{keep_time,   keep_time,    keep_time,  say_in_time,
                                       say_in_time, register_one, delete_one, update};
   EXPECT_EQ(sail({services}),
-            (Hashes{0xd02d49e6c0731df0u, 0x0bd8d75775714305u, 0x8ce6ccd4c40ce77bu,
-                    0x1ae1f722095c4d5fu, 0xe3363966a53ebe64u, 0xa2393d8320b3440fu}));
+            (Hashes{0x026c2599f25875a3u, 0x87a7c7386213c06du, 0xac10f68445e061a2u,
+                    0x7cd99312c6b15fd4u, 0x53ba515c14330c1du, 0x92591cee9a1fb651u}));
   EXPECT_EQ(sail({services, prepare, 40}),
-            (Hashes{0x1759f31c01c4d14du, 0xef725537d6884a6au, 0x7afb403f46863ed5u,
-                    0xfb5117485c28fddbu, 0x418c219a58cfd219u, 0x374365743bb0c250u}));
+            (Hashes{0x7246619aafcb8ab0u, 0xbd720db9689d1c9du, 0x60928e945bcca5e9u,
+                    0x6c71e552875b5a72u, 0xdd8e6581a851623du, 0x5bea30f49e370f28u}));
 }
 TEST(ConversationHashes, OfTimeManagementAmongChangingOwners) {
   EXPECT_EQ(sail({{keep_time, keep_time, say_in_time, register_one, trade, trade, declare, say},
                   prepare,
                   60}),
-            (Hashes{0x63cdd3a734f292ceu, 0xea358c0b68378503u, 0xfc47f2bd984336e0u,
-                    0x476ab9357c32d03eu, 0x8a8b27b102a0736cu, 0xc644cecc980a1887u}));
+            (Hashes{0x7ce69465b96198b0u, 0xfedd4f3a086d7c27u, 0x555ea86dd451410cu,
+                    0xd3f5fe36cf132401u, 0x0fb6e73cc40e80e6u, 0x5f04d77dba86f03fu}));
 }
 TEST(ConversationHashes, OfBestEffort) {
   const std::vector<Service> services{register_one, update,    update,     update,
                                       update,       transport, delete_one, say};
   EXPECT_EQ(sail({services, prepare, 0, 400}),
-            (Hashes{0xb8a80ce1ae0cbb8au, 0x3771bca7ce797bd8u, 0x6ad5ed99f111d272u,
-                    0x6fd53fbdbfb40ec4u, 0xe4e3f3fd92d7250du, 0x734c49df75676f23u}));
+            (Hashes{0x03af734d124b99c4u, 0x2f93bcee4cb2e690u, 0x40fa9516dbe3db68u,
+                    0x87f897d23ca8bde8u, 0xa435a08d44d92955u, 0x372a7424d3d43bcbu}));
   EXPECT_EQ(sail({services, prepare, 30, 300}),
-            (Hashes{0x3fe3b17c84085b68u, 0x506aab52c34b1c87u, 0xe8319fc6f457d26bu,
-                    0x3112a1e445605891u, 0xf6440db4f79a3dedu, 0xcc6dba0f50661930u}));
+            (Hashes{0xac2188ffd47b68f7u, 0xebbda14f3a886ce7u, 0x3733bceeaefbf51fu,
+                    0x3a5a734689754874u, 0x5fe66e60fbed2495u, 0xb967ae27cd5ac082u}));
 }
 TEST(ConversationHashes, OfManagement) {
   EXPECT_EQ(sail({{manage, manage, declare, register_one, update, say, synchronize}}),
-            (Hashes{0x54f92f8f22decccau, 0x15f32693f1ccafdbu, 0x5292797cca6f6778u,
-                    0x2e2688601eb09851u, 0x6bcd0b484a741051u, 0xbbc9553927b8a7a8u}));
+            (Hashes{0x641902192796a44fu, 0xf6221f6bd85c5c01u, 0x755bd14e456c9d1eu,
+                    0xaa76c9841e12cfbdu, 0xd21ee889b82582b9u, 0xfe8adf9741c42401u}));
   EXPECT_EQ(sail({{manage, manage, manage, register_one, keep_time, trade, watch}, prepare, 25}),
-            (Hashes{0x9c1ee8e1739fda1au, 0x36e8ec42b96c209eu, 0x5e2854cf257cb02cu,
-                    0xfc554189e0ce4a9cu, 0x48f0f79674969296u, 0xce0e3584e03d8eedu}));
+            (Hashes{0xdfc1edf152a17984u, 0xde9f1b31e5355214u, 0x4509be24f7625937u,
+                    0x100f4d7bb825002fu, 0x5d8c72cfa50ac1c5u, 0xcb3542129e82dbccu}));
 }
 TEST(ConversationHashes, OfThoseWhoDoNotRead) {
   EXPECT_EQ(sail({{register_one, update, update, delete_one, ask, say}, prepare, 50, 0, true}),
-            (Hashes{0xd8f80c626a72af14u, 0xeb87ba5472920b58u, 0x42b9d09a327f6c91u,
-                    0x7b485a0943a8fda0u, 0xb400f1b88e23a1ecu, 0x93b117b4f93c6af0u}));
+            (Hashes{0x7c637786155e41e1u, 0x9ef5870f4354d2eeu, 0x94612125d5a756d0u,
+                    0x10421c1a2f6dde08u, 0xf028c485db9d5230u, 0x36668c316948da3fu}));
 }
 TEST(ConversationHashes, OfLittleRoom) {
   EXPECT_EQ(sail({{register_one, register_one, update, update, say, delete_one},
@@ -122,16 +122,16 @@ TEST(ConversationHashes, OfLittleRoom) {
                   0,
                   true,
                   cramped()}),
-            (Hashes{0x56cdf00003f88e9eu, 0x939a2b8a258cd4c9u, 0x81cf6bf7bef88402u,
-                    0x6589d1263cca57c8u, 0xf972ca88ec7c0967u, 0x7c40f2329ce63355u}));
+            (Hashes{0x0aec0bb078bafa87u, 0xe607f3b892772a6fu, 0x719ee0b4c0b3c816u,
+                    0xe254b0dbff5f1d5eu, 0x2a8f01f9cf204dc6u, 0x0a1fb77d9c966adfu}));
   EXPECT_EQ(sail({{register_one, update, keep_time, keep_time, say_in_time, say_in_time},
                   prepare,
                   80,
                   0,
                   false,
                   cramped()}),
-            (Hashes{0x89fbd4be0852c24eu, 0xedd9e78d44ea886du, 0xea2a501ff35ad045u,
-                    0xa19c73a5ee09977eu, 0x0f8ddcf6e1701565u, 0x9b574bf04536e96eu}));
+            (Hashes{0x1fc85a87e2e991deu, 0x0176b3aad843fd00u, 0xb0b119916030e205u,
+                    0x79fde44b1b85638bu, 0x12b9ad3453da67fau, 0x328912d09a741565u}));
 }
 TEST(ConversationHashes, OfEverythingAtOnce) {
   const std::vector<Service> services{declare,     register_one, update,     update,    say,
@@ -140,17 +140,17 @@ TEST(ConversationHashes, OfEverythingAtOnce) {
                                       synchronize, manage,       watch};
   for (const auto& [seed, hashes] : std::vector<std::pair<std::uint64_t, Hashes>>{
            {1,
-            {0xacbbba4544ab41f2u, 0xa2fd266cac8226cau, 0x2bdffd8b1a0a1903u, 0xfd88d398f400346cu,
-             0xea71af745a2a67c3u, 0x43b0bddbcfff610fu}},
+            {0x2a4c008f1d2c2b6fu, 0x96b8040567912796u, 0xdd91582ab9a5fe19u, 0x9afbd18b4947f91bu,
+             0x5cac7215d190845du, 0xc185f7cbd98a04c5u}},
            {2,
-            {0x6c48637f81ad570fu, 0x1b99900e5898d073u, 0xb30310f74683b412u, 0xc112f27de0aecb8bu,
-             0x4c8e252e6972be5eu, 0xe89f8a0455ccf3acu}},
+            {0x0bca58e2d05a0574u, 0x9e86563e8ad8c2cfu, 0xbfcda54deae6e1e9u, 0x9c0cc807c8479c10u,
+             0x72db07bd7618d8f0u, 0x39b203949a96463au}},
            {3,
-            {0x682ecb71c52f8e22u, 0xe2339f7e1a10abbfu, 0xfc1434f5f1522e6fu, 0xa628d88efa451b4cu,
-             0x2fba275b08bef118u, 0x0883cfc8e188893du}},
+            {0xb9b229d2d2227346u, 0xe7da8aee0a40e138u, 0x733d01c71a9aa38au, 0x9e9c0747f5692217u,
+             0xcd40ee042c1a7023u, 0x4d52ecd13d1ce924u}},
            {4,
-            {0x7d7a870ea0048b96u, 0x933c142292d6cf61u, 0x510d6de19915eb41u, 0x9e50ba4d6ad0fcf0u,
-             0xd7fc9a73643d119eu, 0x34269442c90f6016u}}})
+            {0x97682c58abb40484u, 0x8021f8a9d0af3452u, 0x0f1593648c47264eu, 0x6a7caa1b48615c03u,
+             0xd63771d59fd2106eu, 0x35fbac6228aa0a25u}}})
     EXPECT_EQ(sail({services, prepare, 60, 350, true, filtered("region")}, seed), hashes) << seed;
 }
 

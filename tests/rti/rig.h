@@ -17,8 +17,21 @@
 #include "rti/transport/in_process.h"
 #include "rti/transport/modelled/network_model.h"
 #include "rti/transport/tcp/tcp.h"
+#include "rti/wire/update_block.h"
 
 namespace rink::rti::testing {
+
+/// A block of one object.
+template <MessageKind k>
+struct OneObject {
+  static constexpr MessageKind kind = k;
+  std::uint32_t object = 0;
+};
+template <class Stream, MessageKind k>
+bool exchange(Stream& stream, OneObject<k>& message) {
+  std::uint64_t step = handle_step(0, message.object), end = 0;
+  return stream.varint(step) && stream.varint(end);
+}
 
 /// A harbour: nothing to do with the game. Vessel has 8 + 4 bytes of fixed size, Ferry inherits and
 /// adds a text.

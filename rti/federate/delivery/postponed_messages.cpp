@@ -1,15 +1,17 @@
 // Keeps messages as bytes until they may be delivered.
 #include "rti/federate/delivery/postponed_messages.h"
 
+#include "rti/baselines/residual_bits.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {
 
 bool PostponedMessages::keep(Reader& reader, MessageKind kind, const ReadContext& context) {
   const Bytes body = reader.rest();
-  if (kind == MessageKind::updates && !context.stamp) return false;
+  const bool is_stamped = kind == MessageKind::updates || kind == MessageKind::residuals;
+  if (is_stamped && !context.stamp) return false;
   const std::size_t start = bytes_.size();
-  if (kind == MessageKind::updates) {
+  if (is_stamped) {
     StampMessage stamp{*context.stamp};
     write(bytes_, stamp);
   }
@@ -31,6 +33,11 @@ bool PostponedMessages::skip(Reader& reader, MessageKind kind) const {
            read_records(reader, fom_.object_classes()[message.object_class],
                         AttributeSet(message.attributes),
                         [](std::uint32_t, Bytes) { return true; });
+  }
+  if (kind == MessageKind::residuals) {
+    ResidualsMessage message;
+    Bytes bits;
+    return exchange(reader, message) && reader.rest(bits, message.size);
   }
   if (kind == MessageKind::interaction) {
     InteractionMessage message;

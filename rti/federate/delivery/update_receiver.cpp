@@ -16,6 +16,14 @@ bool UpdateReceiver::handle_stamp(Reader& reader, ReadContext& context) {
   return true;
 }
 
+bool UpdateReceiver::handle_stamp_step(Reader& reader, ReadContext& context) {
+  StampStepMessage message;
+  Stamp stamp;
+  if (!exchange(reader, message) || !follow(stamp_steps_, message, stamp)) return false;
+  context.stamp = stamp;
+  return true;
+}
+
 bool UpdateReceiver::handle_updates(Reader& reader, const ReadContext& context) {
   UpdatesMessage message;
   if (!exchange(reader, message) || !context.stamp ||
@@ -25,7 +33,8 @@ bool UpdateReceiver::handle_updates(Reader& reader, const ReadContext& context) 
   const ObjectClassHandle handle{message.object_class};
   if (!basis_.fom.attributes(handle).includes(attributes)) return false;
   const ObjectClass& object_class = basis_.fom.at(handle);
-  const bool has_codec = is_coded(object_class, attributes);
+  const bool has_codec = is_coded(object_class, attributes),
+             has_residuals = residuals_.is_concerned(message.object_class, attributes);
   const Stamp stamp = *context.stamp;
   const bool is_read =
       read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
@@ -37,6 +46,7 @@ bool UpdateReceiver::handle_updates(Reader& reader, const ReadContext& context) 
           if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
           values = decoded_;
         }
+        if (has_residuals) residuals_.keep({object}, message.object_class, attributes, values);
         ++basis_.counters.updates_reflected;
         arrivals_.note_from_frame({object}, message.object_class, attributes);
         if (context.timed != nullptr)

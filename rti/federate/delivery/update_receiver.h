@@ -6,18 +6,22 @@
 
 #include "rti/federate/ambassador_basis.h"
 #include "rti/federate/books/object_book.h"
+#include "rti/federate/delivery/residual_reader.h"
 #include "rti/federate/delivery/update_arrivals.h"
 #include "rti/federate/read_context.h"
+#include "rti/wire/stamp_steps.h"
 
 namespace rink::rti {
 
 /// Its buffers differ from those of sending: a callback may send updates while it reads values.
 class UpdateReceiver {
  public:
-  UpdateReceiver(const AmbassadorBasis& basis, const ObjectBook& objects, UpdateArrivals& arrivals)
-      : basis_(basis), objects_(objects), arrivals_(arrivals) {}
+  UpdateReceiver(const AmbassadorBasis& basis, const ObjectBook& objects, UpdateArrivals& arrivals,
+                 ResidualReader& residuals)
+      : basis_(basis), objects_(objects), arrivals_(arrivals), residuals_(residuals) {}
 
   static bool handle_stamp(Reader& reader, ReadContext& context);
+  bool handle_stamp_step(Reader& reader, ReadContext& context);
   /// Handles updates from a frame, which are newer than all that came before.
   bool handle_updates(Reader& reader, const ReadContext& context);
   /// Handles updates from a datagram: of its best-effort values, those that are not older than the
@@ -40,6 +44,8 @@ class UpdateReceiver {
   AmbassadorBasis basis_;
   const ObjectBook& objects_;
   UpdateArrivals& arrivals_;
+  ResidualReader& residuals_;
+  StampSteps stamp_steps_;
   std::vector<std::byte> decoded_;
   std::vector<std::byte> chosen_;  ///< of the values of a datagram
 };

@@ -4,6 +4,7 @@
 #include "rti/federate/books/require.h"
 #include "rti/federate/services/require_declared.h"
 #include "rti/wire/membership_messages.h"
+#include "rti/wire/object_block.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/region_messages.h"
 
@@ -92,6 +93,7 @@ bool FederateObjects::handle_removal(Reader& reader, const ReadContext& context)
   RemoveObjectMessage message;
   if (!exchange(reader, message)) return false;
   const ObjectHandle object{message.object};
+  uses_.residuals.forget(object);
   if (uses_.book.find(object) == nullptr) {
     uses_.book.settle_gone(object);
     return uses_.book.is_gone(object);
@@ -124,18 +126,18 @@ bool FederateObjects::handle_discovery(Reader& reader) {
 }
 
 bool FederateObjects::handle_scope(Reader& reader, bool is_in) {
-  InScopeMessage message;
-  if (!exchange(reader, message)) return false;
-  const ObjectHandle object{message.object};
-  const KnownObject* known = uses_.book.find(object);
-  if (known == nullptr) return uses_.book.is_gone(object);
-  ++basis_.counters.scope_changes;
-  if (is_in) uses_.arrivals.enter(object, known->object_class);
-  else uses_.arrivals.leave(object);
-  if (!uses_.declarations.is_on(Advisory::attribute_scope)) return true;
-  if (is_in) basis_.callbacks.attributes_in_scope(object);
-  else basis_.callbacks.attributes_out_of_scope(object);
-  return true;
+  const bool is_read = read_objects(reader, [&](ObjectHandle object) {
+    const KnownObject* known = uses_.book.find(object);
+    if (known == nullptr) return uses_.book.is_gone(object);
+    ++basis_.counters.scope_changes;
+    if (is_in) uses_.arrivals.enter(object, known->object_class);
+    else uses_.arrivals.leave(object);
+    if (!uses_.declarations.is_on(Advisory::attribute_scope)) return true;
+    if (is_in) basis_.callbacks.attributes_in_scope(object);
+    else basis_.callbacks.attributes_out_of_scope(object);
+    return basis_.phase.is_joined();
+  });
+  return is_read || !basis_.phase.is_joined();
 }
 
 bool FederateObjects::handle_request(Reader& reader) {

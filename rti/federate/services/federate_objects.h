@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "rti/federate/ambassador_basis.h"
+#include "rti/federate/delivery/residual_reader.h"
 #include "rti/federate/delivery/update_arrivals.h"
 #include "rti/federate/read_context.h"
 #include "rti/federate/services/federate_declarations.h"
@@ -24,6 +25,7 @@ class FederateObjects {
     UpdateArrivals& arrivals;
     Sparing& sparing;
     UpdateSender& sender;
+    ResidualReader& residuals;
   };
   FederateObjects(const AmbassadorBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 

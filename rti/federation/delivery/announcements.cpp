@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 
 namespace rink::rti {
 
@@ -18,8 +19,25 @@ void enqueue(std::vector<std::byte>& bytes, Message message) {
 void Announcements::write(FlushContext& context, std::size_t end) {
   assert(std::ranges::is_sorted(context.interest.sent_now));  // they are looked up
   const std::size_t before = context.frame.size();
+  const std::vector<ScopeEvent>& events = context.interest.events;
+  block_.close();
   if (context.interest.has_unannounced) write_postponed(context, end);
-  for (const ScopeEvent& event : context.interest.events) write_event(context, event, end);
+  // Of one match each object has at most one change: exits first make two blocks of many.
+  const bool is_one_match = std::ranges::adjacent_find(events, std::ranges::greater_equal{},
+                                                       &ScopeEvent::slot) == events.end();
+  const auto write_all = [&](auto is_wanted) {
+    for (const ScopeEvent& event : events)
+      if (is_wanted(event)) write_event(context, event, end);
+  };
+  const auto is_exit = [](const ScopeEvent& each) {
+    return each.transition == im::Transition::left;
+  };
+  if (is_one_match) {
+    write_all(is_exit);
+    write_all(std::not_fn(is_exit));
+  } else {
+    write_all([](const ScopeEvent&) { return true; });
+  }
   basis_.counters.scope_bytes_sent += context.frame.size() - before;
 }
 
@@ -30,7 +48,7 @@ void Announcements::write_postponed(FlushContext& context, std::size_t end) {
       interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
         if (frame.size() >= end) return false;
         if (is_too_late(interest, object)) interest.unannounced.erase(object);
-        else announce(context.slot, object, frame.bytes());
+        else announce(context.slot, object, frame.bytes(), block_);
         return true;
       });
   interest.has_unannounced = frame.size() >= end;
@@ -46,9 +64,9 @@ void Announcements::write_event(FlushContext& context, const ScopeEvent& event, 
   if (event.transition == im::Transition::left) {
     if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
     else if (interest.known.contains(event.slot))
-      context.frame.enqueue(OutOfScopeMessage{object.handle.value});
+      block_.append(context.frame.bytes(), OutOfScopeMessage{}, object.handle.value);
   } else if (context.frame.size() < end) {
-    announce(context.slot, event.slot, context.frame.bytes());
+    announce(context.slot, event.slot, context.frame.bytes(), block_);
   } else {
     interest.unannounced.insert(event.slot);
     interest.has_unannounced = true;
@@ -56,7 +74,8 @@ void Announcements::write_event(FlushContext& context, const ScopeEvent& event, 
   }
 }
 
-void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes) {
+void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes,
+                             ObjectBlockWriter& block) {
   FederateInterest& interest = uses_.distribution.of(slot);
   const Object& object = basis_.objects[at];
   assert(object.is_alive);
@@ -65,17 +84,20 @@ void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std:
     ++basis_.federates[slot].objects_discovered;
     uses_.requests.discovered(slot, at, interest.attributes_in_scope(at, object.object_class));
     uses_.owners.discovered(slot, at);
+    interest.holds_static.erase(at);
   }
   interest.known.insert(at);
   interest.unannounced.erase(at);
-  enqueue(bytes, InScopeMessage{object.handle.value});
+  block.append(bytes, InScopeMessage{}, object.handle.value);
 }
 
 void Announcements::send_state_now(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = uses_.distribution.of(slot);
-  announce(slot, object, basis_.federates[slot].outbox.head());
+  ObjectBlockWriter alone;
+  announce(slot, object, basis_.federates[slot].outbox.head(), alone);
   uses_.owners.send_state(slot, object, uses_.newest.of(object));
   interest.needs_full_state.erase(object);
+  interest.holds_former.erase(object);
   interest.needs_any_full_state = true;
   interest.sent_now.push_back(object);
 }

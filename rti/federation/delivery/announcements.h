@@ -11,6 +11,7 @@
 #include "rti/federation/services/newest_stamps.h"
 #include "rti/federation/services/ownership_service.h"
 #include "rti/federation/services/update_requests.h"
+#include "rti/wire/object_block.h"
 
 namespace rink::rti {
 
@@ -34,7 +35,8 @@ class Announcements {
  private:
   void write_postponed(FlushContext& context, std::size_t end);
   void write_event(FlushContext& context, const ScopeEvent& event, std::size_t end);
-  void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes);
+  void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes,
+                ObjectBlockWriter& block);
   /// True if the object may not be discovered any more.
   bool is_too_late(const FederateInterest& interest, ObjectSlot object) const {
     return basis_.objects[object].is_leaving && !interest.known.contains(object);
@@ -42,6 +44,7 @@ class Announcements {
 
   FederationBasis basis_;
   Uses uses_;
+  ObjectBlockWriter block_;  ///< of the frame at hand
 };
 
 }  // namespace rink::rti

@@ -24,15 +24,8 @@ void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet 
 
 }  // namespace
 
-void BestEffortSender::append(std::uint32_t slot, ObjectSlot object, AttributeSet attributes,
-                              const Stamp& stamp, Bytes values) {
-  assert(basis_.objects[object].is_alive && !attributes.is_empty());
-  const ObjectUpdate update{.owner = slot,
-                            .slot = object,
-                            .object = basis_.objects[object],
-                            .attributes = attributes,
-                            .stamp = stamp,
-                            .values = values};
+void BestEffortSender::append(const ObjectUpdate& update) {
+  assert(update.object.is_alive && !update.attributes.is_empty());
   if (has_channels_) append_apart(update);
   else buffering_.append(update);
 }
@@ -48,6 +41,7 @@ void BestEffortSender::append_apart(const ObjectUpdate& update) {
     ObjectUpdate part = update;
     part.attributes = attributes;
     part.values = values_;
+    part.residual = {};
     buffering_.append(part);
   }
 }

@@ -28,8 +28,7 @@ class BestEffortSender {
 
   /// Adds an update to the next flush, in two parts where some attributes travel by datagram and
   /// others do not.
-  void append(std::uint32_t slot, ObjectSlot object, AttributeSet attributes, const Stamp& stamp,
-              Bytes values);
+  void append(const ObjectUpdate& update);
   /// False if it acknowledges a datagram that was never sent.
   bool acknowledge(std::uint32_t slot, Reader& reader);
 

@@ -13,6 +13,7 @@
 #include "rti/types.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/message.h"
+#include "rti/wire/stamp_steps.h"
 
 namespace rink::rti {
 
@@ -20,7 +21,9 @@ namespace rink::rti {
 /// place. The next frame uses the memory again.
 class GatheredFrame {
  public:
-  void begin() {
+  /// `steps` are those of the federate that the frame is for.
+  void begin(StampSteps& steps) {
+    steps_ = &steps;
     bytes_.resize(frame_header_size);
     taken_ = shared_size_ = 0;
     stamp_.reset();
@@ -40,8 +43,20 @@ class GatheredFrame {
   /// Writes the stamp of the updates that follow if it differs from the one before.
   void write_stamp(const Stamp& stamp) {
     if (stamp_ == stamp) return;
+    std::optional<StampStepMessage> step = steps_to(*steps_, stamp);
+    if (!step && !stamp_) step = step_to(*steps_, stamp);
+    if (!step) return enqueue_whole(stamp);
     stamp_ = stamp;
-    enqueue(StampMessage{stamp});
+    is_stamp_whole_ = false;
+    Stamp reached;
+    [[maybe_unused]] const bool is_reached = follow(*steps_, *step, reached);
+    assert(is_reached && reached == stamp);
+    enqueue(*step);
+  }
+  /// The same for updates that are read even if frames before this one were not: a step from a
+  /// stamp that the federate never heard would lead to another time.
+  void write_whole_stamp(const Stamp& stamp) {
+    if (stamp_ != stamp || !is_stamp_whole_) enqueue_whole(stamp);
   }
   bool is_stamped(const Stamp& stamp) const { return stamp_ == stamp; }
   /// True for the first call in a frame: the message that begins a keyframe is written once.
@@ -75,6 +90,11 @@ class GatheredFrame {
     Bytes shared;
     std::size_t from = 0, to = 0;
   };
+  void enqueue_whole(const Stamp& stamp) {
+    stamp_ = stamp;
+    is_stamp_whole_ = true;
+    enqueue(StampMessage{stamp});
+  }
   void take_own() {
     assert(taken_ <= bytes_.size());
     if (bytes_.size() > taken_) pieces_.push_back({{}, taken_, bytes_.size()});
@@ -85,6 +105,8 @@ class GatheredFrame {
   std::size_t taken_ = 0;  ///< up to here `bytes_` is in `pieces_`
   std::size_t shared_size_ = 0;
   std::optional<Stamp> stamp_;  ///< once it was written
+  bool is_stamp_whole_ = false;
+  StampSteps* steps_ = nullptr;
   bool is_keyframe_begun_ = false;
   std::vector<Piece> pieces_;
   std::vector<Bytes> gathered_;

@@ -71,7 +71,7 @@ void PeriodicWriter::gather(std::size_t index, FlushContext& context) {
     if (baselines_.keyframe()) baselines_.note_sent(slot, i, bits);
   }
   if (!is_any) return;
-  context.frame.write_stamp(run.stamp);
+  context.frame.write_whole_stamp(run.stamp);
   if (!knows_all || !wanted.is_all()) return cut(run, block, context);
   ++baselines_.counters().blocks_shared;
   count(block.records.size(), block.difference_count);
@@ -112,7 +112,7 @@ void PeriodicWriter::count(std::size_t records, std::size_t differences) {
 
 void PeriodicWriter::begin_keyframe(const Stamp& stamp, GatheredFrame& frame) {
   if (!frame.begins_keyframe()) return;
-  frame.write_stamp(stamp);
+  frame.write_whole_stamp(stamp);
   frame.enqueue(BeginKeyframeMessage{*baselines_.keyframe()});
 }
 

@@ -27,6 +27,7 @@ void fetch(const Value& value) {
 void Sender::flush(Outlet& outlet) {
   const std::span<const UpdateRun> runs = uses_.buffering.seal();
   uses_.periodic.begin_flush(runs);
+  uses_.residuals.begin_flush(runs);
   uses_.datagrams.begin_flush();
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot) {
     look_ahead(slot);
@@ -60,7 +61,7 @@ void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
   FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
   const std::uint64_t before = basis_.counters.updates_sent;
-  frame.begin();
+  frame.begin(federate.stamp_steps);
   std::ranges::sort(interest.sent_now);
   for (const ObjectSlot each : interest.sent_now)
     interest.needs_full_state.insert(each);  // the full state includes this flush's runs
@@ -142,7 +143,11 @@ void Sender::write_full_states(FlushContext& context, std::size_t end) {
     context.full_state_sent.push_back(due);
     const Object& object = basis_.objects[due];
     if (!object.is_alive || object.object_class == interest.host_served) return true;
-    const AttributeSet set = interest.attributes_in_scope(due, object.object_class) & object.valued;
+    AttributeSet set = interest.attributes_in_scope(due, object.object_class) & object.valued;
+    uses_.residuals.sent_full_state(due, set, interest);
+    const AttributeSet statics = basis_.objects.settled_static(due);
+    if (interest.holds_static.contains(due)) set = set.without(statics);
+    else if (!statics.is_empty() && set.includes(statics)) interest.holds_static.insert(due);
     if (set.is_empty()) return true;
     const Stamp stamp = uses_.newest.of(due);
     if (!block || !frame.is_stamped(stamp)) {
@@ -171,6 +176,7 @@ bool Sender::holds_back(const FlushContext& context, const Outlet& outlet) {
 void Sender::hold_back(FlushContext& context) {
   FederateInterest& interest = context.interest;
   for (const UpdateRun& run : context.runs) {
+    uses_.residuals.sent_otherwise(run, interest);
     if (run.owner == context.slot || run.object_class == interest.host_served ||
         (interest.is_uniform && (interest.by_class[run.object_class] & run.attributes).is_empty()))
       continue;
@@ -184,22 +190,33 @@ void Sender::hold_back(FlushContext& context) {
 }
 
 void Sender::gather_runs(FlushContext& context) {
-  const FederateInterest& interest = context.interest;
+  FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
   const std::size_t before = frame.size();
   for (const UpdateRun& run : context.runs) {
-    if (run.owner == context.slot || run.object_class == interest.host_served) continue;
+    if (run.object_class == interest.host_served) continue;
+    if (run.owner == context.slot) {
+      uses_.residuals.sent_otherwise(run, interest);
+      continue;
+    }
     const auto index = static_cast<std::size_t>(&run - context.runs.data());
-    if (context.path.channel != nullptr && uses_.datagrams.gather(index, context)) continue;
+    if (context.path.channel != nullptr && uses_.datagrams.gather(index, context)) {
+      uses_.residuals.sent_otherwise(run, interest);
+      continue;
+    }
     if (uses_.periodic.covers(index)) {
       uses_.periodic.gather(index, context);
       continue;
     }
+    if (uses_.residuals.gather(index, context)) continue;
     if (!interest.is_uniform) {
+      uses_.residuals.sent_otherwise(run, interest);
       gather_cut_run(run, context);
       continue;
     }
     const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
+    if (wanted == run.attributes) uses_.residuals.sent_whole(run, interest);
+    else uses_.residuals.sent_otherwise(run, interest);
     if (wanted.is_empty()) continue;
     if (wanted != run.attributes) gather_cut_run(run, context);
     else if (!interest.needs_any_full_state && is_all_in_scope(run, interest.reflected())) {
@@ -255,7 +272,7 @@ void Sender::gather_cut_run(const UpdateRun& run, FlushContext& context) {
 /// stream.
 void Sender::write_due_states(FlushContext& context) {
   DatagramChannel& channel = *context.federate.channel;
-  const FederateInterest& interest = context.interest;
+  FederateInterest& interest = context.interest;
   GatheredFrame& frame = context.frame;
   for (const DatagramLedger::Lost& each : channel.due) {
     const ObjectSlot object = basis_.objects.find({each.handle});
@@ -266,6 +283,7 @@ void Sender::write_due_states(FlushContext& context) {
         interest.attributes_in_scope(object, basis_.objects[object].object_class) &
         basis_.objects[object].valued & each.attributes;
     if (set.is_empty()) continue;
+    interest.holds_former.erase(object);
     values_.clear();
     basis_.objects.append(object, set, values_);
     const Stamp stamp = uses_.newest.of(object);

@@ -13,6 +13,7 @@
 #include "rti/federation/delivery/best_effort_sender.h"
 #include "rti/federation/delivery/flush_context.h"
 #include "rti/federation/delivery/periodic_writer.h"
+#include "rti/federation/delivery/residual_writer.h"
 #include "rti/federation/delivery/turn_writer.h"
 #include "rti/federation/expulsion.h"
 #include "rti/federation/federation_basis.h"
@@ -29,6 +30,7 @@ class Sender final {
     Announcements& announcements;
     PeriodicWriter& periodic;
     TurnWriter& turns;
+    ResidualWriter& residuals;
     BestEffortSender& datagrams;
     BestEffortReceiver& received;
   };

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "rti/baselines/residual_states.h"
 #include "rti/federation/delivery/arrival_orders.h"
 #include "rti/federation/delivery/best_effort_receiver.h"
 #include "rti/federation/delivery/best_effort_sender.h"
@@ -26,8 +27,10 @@ struct ObjectServices {
         newest(ground.objects, ground.ownership),
         arrivals(ground.fom),
         types(ground.basis(), ground.ownership, publications, known),
+        residuals(ground.fom),
         sender(ground.basis(), types, *ground.buffering),
-        updates(ground.basis(), {ground.ownership, publications, known, newest, arrivals, sender}),
+        updates(ground.basis(),
+                {ground.ownership, publications, known, newest, arrivals, sender, residuals}),
         receiver(ground.basis(),
                  {types, ground.ownership, known, newest, arrivals, sender, updates}),
         objects(ground.basis(), {ground.ownership, *ground.distribution, publications, known, names,
@@ -62,6 +65,7 @@ struct ObjectServices {
   NewestStamps newest;
   ArrivalOrders arrivals;
   TransportationTypes types;
+  ResidualStates residuals;
   BestEffortSender sender;
   UpdateService updates;
   BestEffortReceiver receiver;

@@ -60,7 +60,15 @@ void UpdateService::store(std::uint32_t slot, ObjectSlot object, AttributeSet at
                           const Stamp& stamp, Bytes values) {
   assert(basis_.objects[object].is_alive && !attributes.is_empty());
   basis_.objects.store(object, attributes, values);
-  uses_.sender.append(slot, object, attributes, stamp, values);
+  const Object& updated = basis_.objects[object];
+  uses_.sender.append(
+      {.owner = slot,
+       .slot = object,
+       .object = updated,
+       .attributes = attributes,
+       .stamp = stamp,
+       .values = values,
+       .residual = uses_.residuals.take(updated, object, attributes, stamp.time, values)});
   ++basis_.counters.updates_received;
   ++basis_.federates[slot].counts.updates_sent;
 }
@@ -76,6 +84,9 @@ Status UpdateService::handle_spare(std::uint32_t slot, Reader& reader) {
   if (!uses_.ownership.owned_by(slot, object).includes(attributes)) return Violation::not_owned;
   Object& spared = basis_.objects[object];
   spared.valued = spared.valued.without(attributes);
+  spared.changed_static = spared.changed_static | attributes;
+  // Who discovers the object now lacks these values.
+  uses_.residuals.forget(spared, object, attributes);
   uses_.arrivals.accept_frame(slot, spared.handle, spared.object_class, attributes);
   return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "rti/baselines/residual_states.h"
 #include "rti/federation/delivery/arrival_orders.h"
 #include "rti/federation/delivery/best_effort_sender.h"
 #include "rti/federation/federation_basis.h"
@@ -25,6 +26,7 @@ class UpdateService {
     NewestStamps& newest;
     ArrivalOrders& arrivals;
     BestEffortSender& sender;
+    ResidualStates& residuals;
   };
   UpdateService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 

@@ -25,6 +25,13 @@ TimedEntry entry_of(const StampedMessage& message, std::uint32_t index, std::uin
 
 }  // namespace
 
+void TimedDelivery::accept(std::uint32_t index) {
+  arrived_.push_back(index);
+  if (messages_[index].kind != MessageKind::updates) return;
+  const ObjectSlot object = basis_.objects.find({messages_[index].object});
+  if (object != no_object) uses_.residuals.bar(basis_.objects[object], object);
+}
+
 void TimedDelivery::distribute(TimeManagement& management) {
   for (const std::uint32_t index : arrived_) distribute(index, management);
   arrived_.clear();

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "rti/baselines/residual_states.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/federation/delivery/announcements.h"
 #include "rti/federation/federation_basis.h"
@@ -27,12 +28,13 @@ class TimedDelivery {
     ObjectService& objects;
     NewestStamps& newest;
     Announcements& announcements;
+    ResidualStates& residuals;
   };
   TimedDelivery(const FederationBasis& basis, TimedMessages& messages, const Uses& uses)
       : basis_(basis), messages_(messages), uses_(uses) {}
 
   /// Adds the message to those that `distribute` takes.
-  void accept(std::uint32_t index) { arrived_.push_back(index); }
+  void accept(std::uint32_t index);
   /// Distributes accepted messages: to the queues of constrained receivers, to the others at once.
   void distribute(TimeManagement& management);
   /// Sends the message to a receiver whose time has come.

@@ -74,6 +74,8 @@ TEST_F(Club, SaysWhichVersionOrModelItExpects) {
   const std::string why = membership.objection(message)->why;
   EXPECT_NE(why.find(std::to_string(protocol_version)), std::string::npos) << why;
   EXPECT_NE(why.find(std::to_string(protocol_version + 1)), std::string::npos) << why;
+  message.version = protocol_version - 1;
+  EXPECT_EQ(refusal_of(message), Refusal::wrong_version) << "the one before residuals";
 }
 
 TEST_F(Club, AdmitsNobodyBeyondItsListAndItsLimit) {

@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "rti/baselines/residual_bits.h"
 #include "rti/wire/admission_messages.h"
 #include "rti/wire/baseline_messages.h"
 #include "rti/wire/datagram.h"
@@ -19,6 +20,7 @@
 #include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/wire/region_messages.h"
+#include "rti/wire/stamp_steps.h"
 #include "rti/wire/time_messages.h"
 #include "tests/places.h"
 #include "tests/rti/wire/guessed_message.h"
@@ -48,19 +50,21 @@ const std::vector<Guesser>& from_federates() {
 }
 
 const std::vector<Guesser>& from_the_rti() {
-  static const std::vector<Guesser> all = guessers_of<
-      JoinedMessage, RefusedMessage, AnnounceSynchronizationPointMessage,
-      FederationSynchronizedMessage, FederateJoinedMessage, FederateResignedMessage,
-      DiscoverObjectMessage, RemoveObjectMessage, InScopeMessage, OutOfScopeMessage,
-      TimeRegulationEnabledMessage, TimeConstrainedEnabledMessage, TimeAdvanceGrantMessage,
-      TimedDeliveryMessage, RequestRetractionMessage, TimeBoundsMessage, FomDigestMessage,
-      ProvideUpdateMessage, SynchronizationPointRegisteredMessage,
-      FederationExecutionCreatedMessage, FederationExecutionDestroyedMessage,
-      FederationExecutionMessage, FederationReportMessage, FederateReportMessage, ReportEndMessage,
-      BeginKeyframeMessage, DeltasMessage, OwnershipNoticeMessage, InformOwnershipMessage,
-      ChallengeMessage, AdmittedMessage, ExpelledMessage, FurtherBlockMessage,
-      InstanceNamesAnswerMessage, ClassRelevanceMessage, ObjectRelevanceMessage,
-      TransportationMessage, StampMessage, UpdatesMessage, InteractionMessage, HostMessage>();
+  static const std::vector<Guesser> all =
+      guessers_of<JoinedMessage, RefusedMessage, AnnounceSynchronizationPointMessage,
+                  FederationSynchronizedMessage, FederateJoinedMessage, FederateResignedMessage,
+                  DiscoverObjectMessage, RemoveObjectMessage, InScopeMessage, OutOfScopeMessage,
+                  TimeRegulationEnabledMessage, TimeConstrainedEnabledMessage,
+                  TimeAdvanceGrantMessage, TimedDeliveryMessage, RequestRetractionMessage,
+                  TimeBoundsMessage, FomDigestMessage, ProvideUpdateMessage,
+                  SynchronizationPointRegisteredMessage, FederationExecutionCreatedMessage,
+                  FederationExecutionDestroyedMessage, FederationExecutionMessage,
+                  FederationReportMessage, FederateReportMessage, ReportEndMessage,
+                  BeginKeyframeMessage, DeltasMessage, ResidualsMessage, OwnershipNoticeMessage,
+                  InformOwnershipMessage, ChallengeMessage, AdmittedMessage, ExpelledMessage,
+                  FurtherBlockMessage, InstanceNamesAnswerMessage, ClassRelevanceMessage,
+                  ObjectRelevanceMessage, TransportationMessage, StampMessage, StampStepMessage,
+                  UpdatesMessage, InteractionMessage, HostMessage>();
   return all;
 }
 

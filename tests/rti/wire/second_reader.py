@@ -277,7 +277,10 @@ class Reader:
         types = [data_type for k, (_, data_type) in enumerate(self.model.objects[number][1]) if bits >> k & 1]
         lines = []
         for handle in self.block():
-            values = b"".join(self.value(each) for each in types)
+            each_value = [self.value(each) for each in types]
+            values = b"".join(each_value)
+            if verb == "reflect" and self.connection is not None:
+                self.connection.former.setdefault(handle, {}).update(zip(types, each_value))
             lines.append("%s %d %s %s %s %s" % (verb, handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
         return lines
 
@@ -304,6 +307,19 @@ class Reader:
 
     def set_stamp(self):
         self.stamp = self.read_stamp()
+        return []
+
+    def step_stamp(self):
+        last = self.connection.last_stamp
+        first = self.varint()
+        if first & 1:
+            count, time, tag = 1, parts.signed(first >> 1), 0
+        else:
+            count, time, tag = first >> 1, parts.signed(self.varint()), parts.signed(self.varint())
+        if count == 0:
+            last[2:] = time, tag
+        last[0], last[1] = (last[0] + count * last[2] + time) % 2**64, (last[1] + count * last[3] + tag) % 2**64
+        self.stamp = "%016x %d" % (last[0], last[1])
         return []
 
     def regions(self):
@@ -456,8 +472,8 @@ DOWN = {
     69: lambda r: ["federate_resigned %d %d %s %s" % (r.u32(), r.u8(), r.text(), r.text())],
     70: lambda r: ["discover " + r.object_message()],
     71: lambda r: ["remove %d" % r.varint()],
-    72: lambda r: ["in_scope %d" % r.varint()],
-    73: lambda r: ["out_of_scope %d" % r.varint()],
+    72: lambda r: ["in_scope %d" % each for each in r.block()],
+    73: lambda r: ["out_of_scope %d" % each for each in r.block()],
     74: lambda r: ["registered %s %d" % (r.text(), r.u8())],
     75: lambda r: ["execution_created %s %d" % (r.text(), r.u8())],
     76: lambda r: ["execution_destroyed %s %d" % (r.text(), r.u8())],
@@ -478,6 +494,8 @@ DOWN = {
     93: lambda r: ["owner %d %d %s" % (r.varint(), r.u8(), r.one_or_none())],
     110: lambda r: r.connection.keyframes.begin(r.u16()),
     111: lambda r: parts.deltas(r, Bits),
+    114: lambda r: parts.residuals(r, Bits),
+    115: Reader.step_stamp,
     118: lambda r: r.connection.admission.challenge(r),
     119: lambda r: r.connection.admission.proof(r, 2),
     112: Reader.digest,
@@ -492,6 +510,8 @@ class Connection:
     def __init__(self, secret):
         self.keyframes, self.admission, self.way = parts.Keyframes(), parts.Admission(secret), parts.Way()
         self.frames = {"u": 0, "d": 0}
+        self.last_stamp = [0, 0, 0, 0]  # time, tag, and a step of each
+        self.former = {}  # by object: the value of each data type that came last by the stream
 
 
 def records_of(session):

@@ -88,14 +88,17 @@ def grid_pair(bits, count, middle=0.0):
 
 
 def trajectory_time(bits, stamp):
-    """The latest instant with the eight bits that is at most half a second after the stamp."""
-    (now,) = struct.unpack("<d", struct.pack("<Q", int(stamp.split()[0], 16)))
-    latest, residue = math.floor((now + 0.5) * 16), bits.number(8)
-    return (latest - (latest - residue) % 256) / 16.0
+    """The latest instant with the fourteen bits that is at most half a second after the stamp."""
+    latest, residue = math.floor((seconds(stamp) + 0.5) * 1024), bits.number(14)
+    return (latest - (latest - residue) % 16384) / 1024.0
+
+
+def seconds(stamp):
+    return struct.unpack("<d", struct.pack("<Q", int(stamp.split()[0], 16)))[0]
 
 
 def trajectory(reader, new_bits):
-    """rink-trajectory-2."""
+    """rink-trajectory-3."""
     bits = new_bits(reader.data[reader.at:])
     form, time, velocity, acceleration, drag = bits.number(2), 0.0, [0.0, 0.0], [0.0, 0.0], [-1.0, -1.0]
     is_driven = form == 3 and bits.number(1) == 1
@@ -124,14 +127,131 @@ def trajectory(reader, new_bits):
 
 
 def held_keys(reader, _):
-    """rink-input-1."""
+    """rink-input-2."""
     packed = reader.varint()
     assert packed >> 36 == 0
     return struct.pack("<IB", packed >> 4, packed & 15)
 
 
-CODECS = {"rink-trajectory-2": trajectory, "rink-input-1": held_keys}
-SHIPPED_CODECS = {"Rink": [("Trajectory", "rink-trajectory-2"), ("Input", "rink-input-1")]}
+def shape(reader, _):
+    """rink-shape-1."""
+    kind_and_team, numbers = reader.take(2), b""
+    for _ in range(5):
+        first = reader.varint()
+        if first == 1:
+            numbers += reader.take(4)
+        else:
+            assert first % 2 == 0 and first >> 1 < 2**24
+            numbers += struct.pack("<f", (first >> 1) / 10000)
+    return kind_and_team + numbers
+
+
+CODECS = {"rink-trajectory-3": trajectory, "rink-input-2": held_keys, "rink-shape-1": shape}
+SHIPPED_CODECS = {"Rink": [("Trajectory", "rink-trajectory-3"), ("Input", "rink-input-2"), ("Shape", "rink-shape-1")]}
+
+
+# Residuals
+
+def warp(x):
+    """(1 - exp(-x))/x, (x - 1 + exp(-x))/x^2 and exp(-x), by a series for x/256 that is doubled eight times."""
+    y = x / 256
+    s = 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0)))
+    q = 0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0))
+    e = 1.0 - y * s
+    for _ in range(8):
+        s, q, e = s * (1.0 + e) * 0.5, (2.0 * q + s * s) * 0.25, e * e
+    return s, q, e
+
+
+def slide(t, drag, k):
+    s, q, e = warp(drag * t)
+    return e - k * (t * s), t * s - k * (t * t * q)
+
+
+def lead(former, shape, instant):
+    """Where a trajectory leads: place and velocity."""
+    time, x, y, vx, vy, ax, ay, *drags = struct.unpack("<9d", former)
+    own, friction, _ = struct.unpack("<fff", shape[10:])
+    if (vx, vy, ax, ay) == (0, 0, 0, 0):
+        return (x, y), (0.0, 0.0)
+    t = instant - time if instant > time else 0.0
+    speed = math.sqrt(vx * vx + vy * vy)
+    if friction > 0 and speed > 0 and (ax, ay) == (0, 0):
+        k = friction / speed
+        kept, length = slide(t, own, k)
+        if kept < 0:
+            low, high = 0.0, t
+            for _ in range(24):
+                middle = 0.5 * (low + high)
+                if slide(middle, own, k)[0] < 0:
+                    high = middle
+                else:
+                    low = middle
+            kept, length = 0.0, slide(low, own, k)[1]
+        return (x + vx * length, y + vy * length), (vx * kept, vy * kept)
+    place, velocity = [], []
+    for p, v, a, drag in ((x, vx, ax, drags[0]), (y, vy, ay, drags[1])):
+        s, q, e = warp((own if drag == -1 else drag) * t)
+        place.append(p + v * (t * s) + a * (t * t * q))
+        velocity.append(v * e + a * (t * s))
+    return place, velocity
+
+
+def steps(led, former):
+    """In 1/2048, to even; where the lead is no reasonable number, those of the value before."""
+    return [round(value * 2048) if abs(value * 2048) < 2**40 else round(before * 2048) for value, before in zip(led, former)]
+
+
+def trajectory_residual(bits, former, shape, stamp):
+    (thrust,), values = struct.unpack("<f", shape[18:]), struct.unpack("<9d", former)
+    acceleration, drag, is_resting = values[5:7], values[7:], False
+    if not bits.number(1):
+        acceleration, drag, is_resting = (0.0, 0.0), (-1.0, -1.0), not bits.number(1)
+        if not is_resting:
+            acceleration = [(0.0, thrust, -thrust)[bits.number(2)] for _ in "xy"]
+    late = 0 if is_resting else golomb(bits, 4)
+    instant = (math.floor(seconds(stamp) * 1024) - late) / 1024
+    place, velocity = lead(former, shape, instant)
+    place = [(count + signed(golomb(bits, 1))) / 2048 for count in steps(place, values[1:3])]
+    if is_resting:
+        return struct.pack("<9d", 0.0, *place, 0.0, 0.0, 0.0, 0.0, -1.0, -1.0)
+    order = (1, 6, 9, 11)[bits.number(2)]
+    velocity = [(count + signed(golomb(bits, order))) / 2048 for count in steps(velocity, values[3:5])]
+    return struct.pack("<9d", instant, *place, *velocity, *acceleration, *drag)
+
+
+def input_residual(bits, former, _, __):
+    count, held = struct.unpack("<IB", former)
+    count = (count + (1 if bits.number(1) else golomb(bits, 0))) % 2**32
+    held = held ^ 1 << bits.number(2) if bits.number(1) else bits.number(4)
+    return struct.pack("<IB", count, held)
+
+
+RESIDUALS = {"Trajectory": trajectory_residual, "Input": input_residual}
+
+
+def residuals(reader, new_bits):
+    number, size = reader.varint(), reader.varint()
+    bits, members = new_bits(reader.take(size)), reader.model.objects[number][1]
+    may = [k for k, (_, data_type) in enumerate(members) if data_type in dict(reader.model.codecs) and data_type in RESIDUALS]
+    order, chosen, handle, lines = bits.number(4), may[-1:], None, []
+    while True:
+        if handle is None:
+            handle = golomb(bits, 0) << 18 | golomb(bits, 10)
+        else:
+            handle += 1 + golomb(bits, order)
+        if not bits.number(1):
+            chosen = [k for k in may if bits.number(1)]
+        former, values = reader.connection.former[handle], b""
+        for _, data_type in (members[k] for k in chosen):
+            former[data_type] = RESIDUALS[data_type](bits, former[data_type], former.get("Shape"), reader.stamp)
+            values += former[data_type]
+        names = "+".join(members[k][0] for k in chosen)
+        lines.append("reflect %d %s %s %s %s" % (handle, reader.object_class(number), names, reader.stamp, values.hex()))
+        left = new_bits(bits.data)
+        left.at = bits.at
+        if 8 * size - bits.at < 8 and left.number(8 * size - bits.at) == 0:
+            return lines
 
 
 # Baselines

@@ -1,0 +1,74 @@
+// Which attributes of a model may travel as residuals, and what both ends keep of an object for
+// them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "rti/fom/attribute_codec.h"
+#include "rti/fom/fom.h"
+#include "rti/wire/bit_stream.h"
+
+namespace rink::rti {
+
+/// The values of one object that residuals refer to, as in memory. Both ends change it by the same
+/// updates in the same order, so that it is equal at both.
+struct FormerValues {
+  AttributeSet held;
+  std::vector<std::byte> bytes;  ///< at the class's offsets
+};
+
+/// What an update is about, but for its values.
+struct ResidualUpdate {
+  std::uint16_t object_class = 0;
+  AttributeSet attributes;
+  double time = 0.0;  ///< of its stamp [s]
+};
+
+/// Immutable; refers to the model.
+class ResidualModel {
+ public:
+  explicit ResidualModel(const Fom& fom);
+
+  /// The attributes of the class that may travel as residuals, all of them reliable; empty for most
+  /// models.
+  AttributeSet residual(std::uint16_t object_class) const {
+    return classes_[object_class].residual;
+  }
+  /// These and the attributes whose values they need.
+  AttributeSet kept(std::uint16_t object_class) const { return classes_[object_class].kept; }
+
+  /// Notes the values of `set`, as in memory.
+  void keep(std::uint16_t object_class, AttributeSet set, Bytes values, FormerValues& former) const;
+  /// Appends the residuals of the values to what is held; false, with some of them perhaps
+  /// appended, if one of them must travel whole. The attributes must be residual.
+  bool encode(const ResidualUpdate& update, Bytes values, const FormerValues& former,
+              BitWriter& bits) const;
+  /// Appends the values, as in memory, and notes them; false if what they need is not held or the
+  /// bits are malformed.
+  bool decode(const ResidualUpdate& update, FormerValues& former, BitReader& bits,
+              std::vector<std::byte>& values) const;
+
+ private:
+  struct Kept {
+    std::uint32_t offset = 0, size = 0;  ///< in `FormerValues::bytes`
+    std::optional<std::uint32_t> context;
+  };
+  struct Class {
+    AttributeSet residual, kept;
+    std::vector<Kept> attributes;  ///< by handle
+    std::uint32_t size = 0;
+  };
+  std::optional<ResidualBasis> basis(const Class& of, std::uint32_t attribute,
+                                     const FormerValues& former) const;
+  const AttributeCodec& codec(std::uint16_t object_class, std::uint32_t attribute) const {
+    return *fom_.object_classes()[object_class].attributes[attribute].codec;
+  }
+
+  const Fom& fom_;
+  std::vector<Class> classes_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,51 @@
+// The values at the RTI that residuals of the next updates refer to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rti/baselines/residual_model.h"
+#include "rti/objects/object_table.h"
+
+namespace rink::rti {
+
+/// An update as the residual to the one before it.
+struct Residual {
+  Bytes bits;
+  std::uint32_t size = 0;  ///< bits; 0: the update must travel whole
+};
+
+/// Follows the updates of all objects in the order in which federates receive them. Codes each once
+/// for all federates.
+class ResidualStates {
+ public:
+  explicit ResidualStates(const Fom& fom) : fom_(fom), model_(fom) {}
+
+  const ResidualModel& model() const { return model_; }
+  /// Takes an update of the object in `slot`, whose values are as they travel. The residual is
+  /// valid until the next call.
+  Residual take(const Object& object, ObjectSlot slot, AttributeSet set, double time, Bytes coded);
+  /// The owner took values back: the next update of `set` travels whole.
+  void forget(const Object& object, ObjectSlot slot, AttributeSet set) {
+    State& state = this->state(object, slot);
+    state.former.held = state.former.held.without(set);
+  }
+  /// Updates of the object travel whole from now on: federates may receive others than those that
+  /// are taken here, or in another order.
+  void bar(const Object& object, ObjectSlot slot);
+
+ private:
+  struct State {
+    ObjectHandle object;  ///< slots are used again
+    bool is_barred = false;
+    FormerValues former;
+  };
+  State& state(const Object& object, ObjectSlot slot);
+
+  const Fom& fom_;
+  ResidualModel model_;
+  std::vector<State> states_;  ///< by slot
+  std::vector<std::byte> values_, bits_;
+};
+
+}  // namespace rink::rti

@@ -1,0 +1,354 @@
+// Residuals between the RTI and its federates: whatever enters, leaves, is held back or subscribed
+// anew, every federate has the owner's values, bit for bit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+
+#include "game/replication/attributes.h"
+#include "game/replication/trajectory.h"
+#include "rti/ambassador.h"
+#include "rti/federation_execution.h"
+#include "tests/net/rink_model.h"
+
+namespace rink::game::residuals {
+namespace {
+
+using Values = std::vector<std::byte>;
+
+/// Keeps the newest value of each attribute of each object, and which objects are in scope.
+struct Watcher final : rti::FederateAmbassador {
+  rti::Ambassador ambassador{rink_fom(), *this};
+  std::map<std::uint32_t, std::map<std::uint32_t, Values>> values;
+  std::set<std::uint32_t> in_scope;
+  rti::RegionHandle region;
+  rti::AttributeSet subscribed;
+  bool is_reading = true;
+  void attributes_in_scope(rti::ObjectHandle object) override { in_scope.insert(object.value); }
+  void attributes_out_of_scope(rti::ObjectHandle object) override { in_scope.erase(object.value); }
+  void remove_object_instance(rti::ObjectHandle object) override {
+    in_scope.erase(object.value);
+    values.erase(object.value);
+  }
+  void reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet set, rti::Bytes sent,
+                                const rti::Stamp&) override {
+    set.for_each([&](rti::AttributeHandle each) {
+      const rti::Bytes value = rink_fom().value(rink_model().entity, set, each, sent);
+      values[object.value][each.value] = Values(value.begin(), value.end());
+    });
+  }
+};
+
+/// A network that delays frames, and delays, loses, doubles and disorders datagrams.
+class Storm {
+ public:
+  explicit Storm(unsigned seed) : random_(seed) {}
+  void send(Watcher& to, std::span<const rti::Bytes> parts) {
+    Frames& frames = frames_[&to];
+    Values& frame = frames.emplace_back();
+    for (const rti::Bytes part : parts) frame.insert(frame.end(), part.begin(), part.end());
+  }
+  void send(Watcher& to, const rti::Datagram& datagram) {
+    if (random_() % 4 == 0) return;
+    for (unsigned copies = random_() % 8 == 0 ? 2 : 1; copies > 0; --copies) {
+      Values bytes(datagram.head.begin(), datagram.head.end());
+      bytes.insert(bytes.end(), datagram.body.begin(), datagram.body.end());
+      datagrams_.push_back({&to, std::move(bytes), static_cast<unsigned>(random_() % 6)});
+    }
+  }
+  /// What arrives at this tick; all of the stream that is under way, with `is_over`.
+  void deliver(bool is_over) {
+    for (auto& [to, frames] : frames_)
+      for (; !frames.empty() && (is_over || random_() % 3 != 0); frames.pop_front())
+        ASSERT_TRUE(to->ambassador.receive(frames.front()));
+    std::vector<Arrival> here;
+    std::erase_if(datagrams_, [&](Arrival& each) {
+      return each.ticks-- == 0 ? (here.push_back(std::move(each)), true) : false;
+    });
+    for (const Arrival& each : here) each.to->ambassador.receive_datagram(each.bytes);
+  }
+
+ private:
+  using Frames = std::deque<Values>;
+  struct Arrival {
+    Watcher* to;
+    Values bytes;
+    unsigned ticks;
+  };
+  std::mt19937_64 random_;
+  std::map<Watcher*, Frames> frames_;
+  std::vector<Arrival> datagrams_;
+};
+
+/// An RTI with one owner of entities and some that watch; the latter behind a storm, if there is
+/// one.
+struct Session final : rti::Outlet {
+  rti::FederationExecution execution;
+  std::deque<Watcher> watchers;
+  std::optional<Storm> storm;
+  double clock = 0.0;
+  bool is_over = false;
+  explicit Session(const char* filter, std::optional<unsigned> storm_seed = std::nullopt)
+      : execution(rink_fom(), settings(filter)) {
+    if (storm_seed) storm.emplace(*storm_seed);
+  }
+  static rti::FederationSettings settings(const char* filter) {
+    rti::FederationSettings settings;
+    settings.filter = filter;
+    return settings;
+  }
+  Watcher& enter() {
+    const auto number = static_cast<rti::ConnectionId>(watchers.size());
+    Watcher& watcher = watchers.emplace_back();
+    execution.connect(number);
+    watcher.ambassador.join("rink", "watcher " + std::to_string(number), "");
+    if (is_stormy(number)) watcher.ambassador.expect_datagrams(datagram_max(number));
+    is_over = true;
+    for (int i = 0; i < 3; ++i) tick();
+    is_over = false;
+    return watcher;
+  }
+  bool is_stormy(rti::ConnectionId connection) const { return storm && connection != 0; }
+  std::size_t datagram_max(rti::ConnectionId connection) const override {
+    return is_stormy(connection) ? 1191 : 0;
+  }
+  void send_datagrams(rti::ConnectionId connection,
+                      std::span<const rti::Datagram> datagrams) override {
+    for (const rti::Datagram& each : datagrams) storm->send(watchers[connection], each);
+  }
+  void send(rti::ConnectionId connection, std::span<const rti::Bytes> parts) override {
+    if (is_stormy(connection)) return storm->send(watchers[connection], parts);
+    for (const rti::Bytes part : parts)
+      ASSERT_TRUE(watchers[connection].ambassador.receive(part)) << "connection " << connection;
+  }
+  void drop(rti::ConnectionId connection, std::string_view why) override {
+    ADD_FAILURE() << "connection " << connection << ": " << why;
+  }
+  std::size_t waiting_bytes(rti::ConnectionId connection) const override {
+    return watchers[connection].is_reading ? 0 : std::size_t{1} << 20;
+  }
+  void tick() {
+    clock += 1.0 / 60.0;
+    execution.advance_clock(clock);
+    if (storm) storm->deliver(is_over);
+    for (rti::ConnectionId id = 0; id < watchers.size(); ++id) {
+      rti::Ambassador& ambassador = watchers[id].ambassador;
+      ambassador.advance_clock(clock);
+      execution.receive(id, ambassador.outgoing());
+      ambassador.clear_outgoing();
+      for (const rti::Datagram& each : ambassador.outgoing_datagrams()) {
+        Values bytes(each.head.begin(), each.head.end());
+        bytes.insert(bytes.end(), each.body.begin(), each.body.end());
+        execution.receive_datagram(id, bytes);
+      }
+      ambassador.clear_outgoing_datagrams();
+    }
+    execution.match();
+    execution.flush(*this);
+  }
+};
+
+/// Random updates of entities by their owner, and random interests of the others.
+class Play {
+ public:
+  Play(unsigned seed, const char* filter, std::optional<unsigned> storm_seed = std::nullopt)
+      : random_(seed), session_(filter, storm_seed) {
+    Watcher& owner = session_.enter();
+    owner.ambassador.publish_object_class_attributes(
+        rink_model().entity,
+        {rink_model().shape, rink_model().input, rink_model().trajectory, rink_model().position});
+    for (int k = 0; k < 3; ++k) {
+      Watcher& watcher = session_.enter();
+      watcher.region = watcher.ambassador.create_region();
+      look(watcher);
+      watcher.ambassador.commit_region_modifications(watcher.region);
+      subscribe(watcher, every());
+    }
+    while (objects_.size() < 6) add();
+  }
+
+  void tick() {
+    now_ += 1.0 / 60.0;
+    for (std::size_t k = 0; k < objects_.size(); ++k)
+      for (unsigned times = below(3); times > 0; --times) update(k);
+    if (below(20) == 0) replace(below(static_cast<unsigned>(objects_.size())));
+    for (std::size_t k = 1; k < session_.watchers.size(); ++k) change(session_.watchers[k], k > 1);
+    session_.tick();
+    ++ticks_;
+  }
+  /// Every watcher that reads has the newest value of what it subscribes to, of all in its scope.
+  void compare() const {
+    for (std::size_t k = 1; k < session_.watchers.size(); ++k) {
+      const Watcher& watcher = session_.watchers[k];
+      if (!watcher.is_reading) continue;
+      for (const Owned& each : objects_) {
+        if (!watcher.in_scope.contains(each.object.value)) continue;
+        for (const auto& [attribute, value] : each.newest)
+          if (watcher.subscribed.contains({attribute})) {
+            ASSERT_EQ(watcher.values.at(each.object.value).at(attribute), value)
+                << "tick " << ticks_ << ", watcher " << k << ", object " << each.object.value
+                << ", attribute " << attribute;
+          }
+      }
+    }
+  }
+  /// Nobody moves any more, until everything that was lost has come again.
+  void settle() {
+    for (std::size_t k = 1; k < session_.watchers.size(); ++k)
+      session_.watchers[k].is_reading = true;
+    session_.is_over = true;
+    for (int i = 0; i < 180; ++i) session_.tick();
+    session_.is_over = false;
+  }
+  const rti::FederationCounters& counters() const { return session_.execution.counters(); }
+
+ private:
+  struct Owned {
+    rti::ObjectHandle object;
+    rti::RegionHandle region;
+    Shape shape;
+    Input input;
+    Trajectory trajectory;
+    std::map<std::uint32_t, Values> newest;
+  };
+  unsigned below(unsigned end) { return static_cast<unsigned>(random_() % end); }
+  double grid(double step, double size) {
+    return std::nearbyint(std::uniform_real_distribution<double>(-size, size)(random_) / step) *
+           step;
+  }
+  static rti::AttributeSet every() {
+    return {rink_model().shape, rink_model().input, rink_model().trajectory, rink_model().position};
+  }
+  rti::Ambassador& owner() { return session_.watchers.front().ambassador; }
+
+  void look(Watcher& watcher) {
+    const double x = below(8), y = below(4);
+    watcher.ambassador.set_region(watcher.region, {x, y, x + 4.0, y + 3.0});
+  }
+  void subscribe(Watcher& watcher, rti::AttributeSet set) {
+    watcher.ambassador.subscribe_object_class_attributes(rink_model().entity, set, watcher.region);
+    watcher.subscribed = set;
+  }
+  /// One watcher always subscribes to all, for what nobody hears the owner keeps back.
+  void change(Watcher& watcher, bool may_subscribe) {
+    if (below(4) == 0) {
+      look(watcher);
+      watcher.ambassador.commit_region_modifications(watcher.region);
+    }
+    if (may_subscribe && below(16) == 0)
+      subscribe(watcher, below(3) != 0
+                             ? every()
+                             : rti::AttributeSet{rink_model().trajectory, rink_model().position});
+    watcher.is_reading = below(6) != 0;
+  }
+
+  void add() {
+    Owned& added = objects_.emplace_back();
+    added.object = owner().register_object_instance(rink_model().entity);
+    added.region = owner().create_region();
+    const double x = below(11), y = below(6);
+    owner().set_region(added.region, {x, y, x + 0.5, y + 0.5});
+    owner().commit_region_modifications(added.region);
+    owner().associate_regions_for_updates(added.object, added.region);
+    added.shape = {.kind = 1,
+                   .drag = below(2) == 0 ? 0.25f : 3.0f,
+                   .friction = below(3) == 0 ? 0.4f : 0.0f,
+                   .thrust = 4.9f};
+    move(added);
+    send(added, {rink_model().shape, rink_model().input, rink_model().trajectory});
+  }
+  void replace(std::size_t which) {
+    owner().delete_object_instance(objects_[which].object);
+    owner().delete_region(objects_[which].region);
+    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(which));
+    add();
+  }
+  void move(Owned& each) {
+    each.input.count += 1 + below(2);
+    each.input.held = static_cast<std::uint8_t>(below(16));
+    each.trajectory = {.time = std::floor(now_ * 1024.0 - below(16)) / 1024.0,
+                       .position = {grid(trajectory_position_step, 20.0) + 20.0,
+                                    grid(trajectory_position_step, 20.0) + 20.0},
+                       .velocity = {grid(trajectory_velocity_step, 2.0), 0.5}};
+    const auto thrust = static_cast<double>(4.9f);
+    if (below(3) == 0) each.trajectory.acceleration = {thrust, 0.0};
+    if (below(9) == 0) each.trajectory.acceleration = {1.5, 0.25};  // of a group: it travels whole
+    if (below(9) == 0) each.trajectory = {.position = each.trajectory.position};
+  }
+  void update(std::size_t which) {
+    Owned& each = objects_[which];
+    move(each);
+    const rti::AttributeSet sets[] = {{rink_model().trajectory},
+                                      {rink_model().trajectory},
+                                      {rink_model().input},
+                                      {rink_model().input, rink_model().trajectory},
+                                      {rink_model().position},
+                                      {rink_model().shape, rink_model().trajectory},
+                                      {rink_model().trajectory, rink_model().position}};
+    const unsigned kind = below(14);
+    if (kind == 5) each.shape.drag = static_cast<float>(below(4));
+    send(each, sets[kind < 7 ? kind : kind % 2]);
+  }
+  void send(Owned& each, rti::AttributeSet set) {
+    Values values;
+    rti::Writer writer(values);
+    set.for_each([&](rti::AttributeHandle attribute) {
+      const std::size_t before = values.size();
+      Position position{static_cast<float>(now_), 1.0f};
+      if (attribute == rink_model().shape) exchange(writer, each.shape);
+      else if (attribute == rink_model().input) exchange(writer, each.input);
+      else if (attribute == rink_model().position) exchange(writer, position);
+      else exchange(writer, each.trajectory);
+      each.newest[attribute.value] =
+          Values(values.begin() + static_cast<std::ptrdiff_t>(before), values.end());
+    });
+    owner().update_attribute_values(each.object, set, values, rti::Stamp{now_, below(2)});
+  }
+
+  std::mt19937_64 random_;
+  Session session_;
+  std::vector<Owned> objects_;
+  double now_ = 10.0;
+  int ticks_ = 0;
+};
+
+TEST(ResidualSession, FederatesHaveTheOwnersValuesWhateverEntersLeavesOrIsHeldBack) {
+  std::uint64_t residuals = 0, held_back = 0;
+  for (unsigned seed = 0; seed < 60 && !testing::Test::HasFatalFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Play play(seed, seed % 3 == 0 ? "none" : "region");
+    for (int tick = 0; tick < 100 && !testing::Test::HasFatalFailure(); ++tick) {
+      play.tick();
+      play.compare();
+    }
+    residuals += play.counters().residuals_sent;
+    held_back += play.counters().updates_held_back;
+  }
+  EXPECT_GT(residuals, 5000u) << "or the test shows nothing";
+  EXPECT_GT(held_back, 1000u);
+}
+
+TEST(ResidualSession, OverAStormFederatesHaveTheOwnersValuesOnceItIsOver) {
+  std::uint64_t residuals = 0, repaired = 0;
+  for (unsigned seed = 0; seed < 24 && !testing::Test::HasFatalFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Play play(seed, seed % 3 == 0 ? "none" : "region", 1000 + seed);
+    for (int round = 0; round < 4 && !testing::Test::HasFatalFailure(); ++round) {
+      for (int tick = 0; tick < 60; ++tick) play.tick();
+      play.settle();
+      play.compare();
+    }
+    residuals += play.counters().residuals_sent;
+    repaired += play.counters().updates_repaired;
+  }
+  EXPECT_GT(residuals, 3000u) << "or the test shows nothing";
+  EXPECT_GT(repaired, 100u);
+}
+
+}  // namespace
+}  // namespace rink::game::residuals

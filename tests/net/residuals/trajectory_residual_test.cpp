@@ -1,0 +1,234 @@
+// Trajectories as residuals: the reader has the writer's bits, and what both predict by is near the
+// closed form.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include "game/replication/input_codec.h"
+#include "game/replication/trajectory_codec.h"
+#include "game/replication/trajectory_residual.h"
+
+namespace rink::game::residuals {
+namespace {
+
+using physics::Vector2;
+
+double on_grid(double step, double value) { return std::nearbyint(value / step) * step + 0.0; }
+
+/// Random motion of a body, as policies round it.
+class Motions {
+ public:
+  explicit Motions(unsigned seed) : random_(seed) {}
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  unsigned below(unsigned end) { return static_cast<unsigned>(random_() % end); }
+  Vector2 vector(double step, double size) {
+    return {on_grid(step, between(-size, size)), on_grid(step, between(-size, size))};
+  }
+  Shape shape() {
+    Shape shape{.kind = 1};
+    if (below(4) != 0) shape.drag = static_cast<float>(between(0.0, 4.0));
+    if (below(3) == 0) shape.friction = static_cast<float>(between(0.0, 1.0));
+    if (below(3) != 0) shape.thrust = 4.9f;
+    return shape;
+  }
+  /// Of a body that moves from an instant at most a tick before `now`.
+  Trajectory moving(double now, const Shape& shape) {
+    Trajectory t{.time = on_grid(trajectory_time_step, now - between(0.001, 0.05)),
+                 .position = vector(trajectory_position_step, 30.0),
+                 .velocity = vector(trajectory_velocity_step, 3.0)};
+    const auto thrust = static_cast<double>(shape.thrust);
+    if (thrust > 0.0 && below(3) == 0) t.acceleration = {below(2) == 0 ? thrust : 0.0, -thrust};
+    return t;
+  }
+  /// After a hit of a body that followed `former`: near to where that leads.
+  Trajectory after(const Trajectory& former, const Shape& shape, double now) {
+    Trajectory t = moving(now, shape);
+    const Lead lead = lead_of(former, shape, t.time);
+    const auto rounded = [&](double value) {
+      return on_grid(trajectory_position_step, value + between(-0.002, 0.002));
+    };
+    t.position = {rounded(lead.position.x()), rounded(lead.position.y())};
+    if (below(8) == 0) return {.position = t.position};
+    return t;
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// By the codec's own functions; the bits it takes, or nothing where it must travel whole.
+std::optional<std::size_t> travels(const Trajectory& former, const Shape& shape, double time,
+                                   const Trajectory& t, std::vector<std::byte>& read) {
+  const TrajectoryCodec codec;
+  std::vector<std::byte> before, context, value, bits;
+  encode(before, former), encode(context, shape), encode(value, t);
+  const rti::ResidualBasis basis{before, context};
+  std::size_t size = 0;
+  {
+    rti::BitWriter writer(bits);
+    if (!codec.encode_residual(basis, value, time, writer)) return std::nullopt;
+    size = writer.at();
+  }
+  rti::BitReader reader(bits);
+  read.clear();
+  EXPECT_TRUE(codec.decode_residual(basis, time, reader, read));
+  EXPECT_EQ(reader.at(), size);
+  EXPECT_EQ(read, value) << "bit for bit";
+  return size;
+}
+
+TEST(TrajectoryResidual, ReaderHasTheBitsOfTheWriterOverLongSequences) {
+  const unsigned seed = 5;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Motions motions(seed);
+  std::vector<std::byte> read;
+  std::size_t whole = 0;
+  for (int sequence = 0; sequence < 3000; ++sequence) {
+    const Shape shape = motions.shape();
+    double now = motions.between(0.1, 5000.0);
+    Trajectory held = motions.moving(now, shape);
+    for (int i = 0; i < 12; ++i) {
+      now += motions.between(0.0, i % 4 == 0 ? 12.0 : 0.5);
+      const Trajectory next =
+          motions.below(9) == 0 ? motions.moving(now, shape) : motions.after(held, shape, now);
+      if (!travels(held, shape, now, next, read)) ++whole;
+      held = next;
+    }
+  }
+  EXPECT_LT(whole, 40u) << "of 36,000; those with a negative zero";
+}
+
+TEST(TrajectoryResidual, HitTakesFortyBitsAndAKeyThirty) {
+  Motions motions(6);
+  std::vector<std::byte> read;
+  const Shape puck{.drag = 0.25f}, bat{.kind = 1, .drag = 3.0f, .thrust = 4.9f};
+  double hits = 0.0, keys = 0.0;
+  constexpr int count = 2000;
+  for (int i = 0; i < count; ++i) {
+    const double now = 100.0 + i / 60.0;
+    const Trajectory former{.time = 99.5,
+                            .position = motions.vector(trajectory_position_step, 10.0),
+                            .velocity = motions.vector(trajectory_velocity_step, 1.0)};
+    Trajectory hit{.time = on_grid(trajectory_time_step, now - motions.between(0.001, 0.016)),
+                   .velocity = motions.vector(trajectory_velocity_step, 1.0)};
+    const auto there = [&](const Shape& shape) {
+      const Vector2 led = lead_of(former, shape, hit.time).position;
+      return Vector2(on_grid(trajectory_position_step, led.x()),
+                     on_grid(trajectory_position_step, led.y()));
+    };
+    hit.position = there(puck);
+    hits += static_cast<double>(travels(former, puck, now, hit, read).value());
+    Trajectory pressed = hit;
+    pressed.position = there(bat);
+    const Vector2 kept = lead_of(former, bat, hit.time).velocity;
+    pressed.velocity = {on_grid(trajectory_velocity_step, kept.x()),
+                        on_grid(trajectory_velocity_step, kept.y())};
+    pressed.acceleration = {static_cast<double>(4.9f), 0.0};
+    keys += static_cast<double>(travels(former, bat, now, pressed, read).value());
+  }
+  EXPECT_LT(hits / count, 40.0) << "91 in full";
+  EXPECT_LT(keys / count, 24.0) << "115 in full";
+}
+
+TEST(TrajectoryResidual, LeadIsTheClosedForm) {
+  Motions motions(7);
+  for (int i = 0; i < 20000; ++i) {
+    const Shape shape = motions.shape();
+    const Trajectory t = motions.moving(50.0, shape);
+    const double instant = t.time + motions.between(0.0, 12.0);
+    const Resistance own{static_cast<double>(shape.drag), static_cast<double>(shape.friction)};
+    const physics::Motion exact = motion_of(t, own).at(instant);
+    const Lead lead = lead_of(t, shape, instant);
+    const double moved = (exact.position - t.position).norm();
+    ASSERT_NEAR((lead.position - exact.position).norm(), 0.0, 3e-5 * moved + 1e-6) << i;
+    ASSERT_NEAR((lead.velocity - exact.velocity).norm(), 0.0, 1e-4) << i;
+  }
+}
+
+TEST(TrajectoryResidual, WhatTheFormCannotSayTravelsWhole) {
+  std::vector<std::byte> read;
+  const Shape shape{.drag = 0.25f, .thrust = 4.0f};
+  const Trajectory former{.time = 9.0, .position = {1.0, 2.0}, .velocity = {0.5, 0.5}};
+  Trajectory t = former;
+  t.time = 10.0;
+  EXPECT_TRUE(travels(former, shape, 10.0, t, read));
+  const auto refuses = [&](const Trajectory& each) {
+    return !travels(former, shape, 10.0, each, read);
+  };
+  const auto with = [&t](auto change) {
+    Trajectory changed = t;
+    change(changed);
+    return changed;
+  };
+  EXPECT_TRUE(refuses(with([](Trajectory& each) { each.position.x() = 0.1; }))) << "off the grid";
+  EXPECT_TRUE(refuses(with([](Trajectory& each) { each.velocity.y() = -0.0; }))) << "another zero";
+  EXPECT_TRUE(refuses(with([](Trajectory& each) { each.time = 11.0; }))) << "of the future";
+  EXPECT_TRUE(refuses(with([](Trajectory& each) { each.acceleration.x() = 3.0; })));
+  EXPECT_TRUE(refuses(with([](Trajectory& each) { each.drag.x() = 0.5; })));
+  EXPECT_TRUE(refuses(with([](Trajectory& each) { each.position.x() = 0x1p40; })));
+  EXPECT_FALSE(travels(former, shape, 1e300, t, read)) << "no instant has a place on the grid";
+}
+
+TEST(TrajectoryResidual, RandomBitsAreRefusedOrGiveATrajectoryThatAnybodyCanFollow) {
+  const unsigned seed = 8;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  Motions motions(seed);
+  const TrajectoryCodec trajectories;
+  const InputCodec inputs;
+  std::vector<std::byte> before, context, input_before, value;
+  for (int i = 0; i < 100000; ++i) {
+    const Shape shape = motions.shape();
+    encode(before, motions.moving(100.0, shape)), encode(context, shape);
+    std::vector<std::byte> noise(random() % 24);
+    for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
+    rti::BitReader bits(noise), again(noise);
+    value.clear();
+    if (trajectories.decode_residual({before, context}, 100.0 + static_cast<double>(i % 20), bits,
+                                     value)) {
+      Trajectory t;
+      ASSERT_TRUE(decode(value, t));
+      ASSERT_TRUE(t.position.allFinite() && t.velocity.allFinite());
+    }
+    value.clear();
+    Input input;
+    if (inputs.decode_residual({encode(input_before, Input{7, 3}), {}}, 0.0, again, value)) {
+      ASSERT_TRUE(decode(value, input));
+      ASSERT_LT(input.held, 16u);
+    }
+  }
+}
+
+TEST(InputResidual, AKeyMoreTakesFourBitsAndNothingIsLost) {
+  const InputCodec codec;
+  std::vector<std::byte> before, value, bits, read;
+  for (const std::uint32_t count : {0u, 1u, 4000u, 0xffffffffu})
+    for (std::uint32_t more = 0; more < 5; ++more)
+      for (unsigned held = 0; held < 256; ++held) {
+        const Input former{count, static_cast<std::uint8_t>(held % 16)},
+            now{count + more, static_cast<std::uint8_t>(held / 16)};
+        encode(before, former), encode(value, now);
+        bits.clear(), read.clear();
+        std::size_t size = 0;
+        {
+          rti::BitWriter writer(bits);
+          ASSERT_TRUE(codec.encode_residual({before, {}}, value, 0.0, writer));
+          size = writer.at();
+        }
+        rti::BitReader reader(bits);
+        ASSERT_TRUE(codec.decode_residual({before, {}}, 0.0, reader, read));
+        ASSERT_EQ(read, value);
+        if (std::popcount(held % 16 ^ held / 16) != 1) continue;
+        if (more <= 1) {
+          ASSERT_EQ(size, more == 1 ? 4u : 5u);
+        }
+      }
+}
+
+}  // namespace
+}  // namespace rink::game::residuals
