@@ -18,9 +18,39 @@ void enqueue(std::vector<std::byte>& bytes, Message message) {
 void Announcements::write(FlushContext& context, std::size_t end) {
   assert(std::ranges::is_sorted(context.interest.sent_now));  // they are looked up
   const std::size_t before = context.frame.size();
+  if (context.interest.has_unannounced_exits) write_postponed_exits(context);
   if (context.interest.has_unannounced) write_postponed(context, end);
   for (const ScopeEvent& event : context.interest.events) write_event(context, event, end);
   basis_.counters.scope_bytes_sent += context.frame.size() - before;
+}
+
+void Announcements::postpone(FederateInterest& interest) {
+  for (const ScopeEvent& event : interest.events) {
+    const Object& object = basis_.objects[event.slot];
+    if (!object.is_alive || object.object_class == interest.host_served) continue;
+    const bool is_exit = event.transition == im::Transition::left;
+    Bitmap& opposite = is_exit ? interest.unannounced : interest.unannounced_exits;
+    if (opposite.contains(event.slot)) {
+      opposite.erase(event.slot);
+    } else if (!is_exit) {
+      interest.unannounced.insert(event.slot);
+      interest.has_unannounced = true;
+    } else if (interest.known.contains(event.slot)) {
+      interest.unannounced_exits.insert(event.slot);
+      interest.has_unannounced_exits = true;
+    }
+  }
+  interest.events.clear();
+}
+
+void Announcements::write_postponed_exits(FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  interest.unannounced_exits.for_each([&](ObjectSlot object) {
+    if (basis_.objects[object].object_class != interest.host_served)
+      context.frame.enqueue(OutOfScopeMessage{basis_.objects[object].handle.value});
+  });
+  interest.unannounced_exits.clear();
+  interest.has_unannounced_exits = false;
 }
 
 void Announcements::write_postponed(FlushContext& context, std::size_t end) {
@@ -68,6 +98,7 @@ void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std:
   }
   interest.known.insert(at);
   interest.unannounced.erase(at);
+  interest.unannounced_exits.erase(at);
   enqueue(bytes, InScopeMessage{object.handle.value});
 }
 
