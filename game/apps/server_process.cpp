@@ -306,6 +306,7 @@ Json ServerProcess::report() const {
               {report::clients, options_.clients},
               {report::seed, options_.seed},
               {report::tick_rate_hz, options_.rate_hz},
+              {report::output_rate_hz, options_.output_rate_hz},
               {"pace", options_.pace},
               {"time_managed", options_.is_time_managed},
               {report::ticks, costs_.ticks},
