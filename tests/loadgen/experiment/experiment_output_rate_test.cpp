@@ -54,9 +54,10 @@ TEST(ExperimentOutputRate, RefusesWhatNoClientCanBeTold) {
   EXPECT_EQ(complaint_on_rates("tick_rate_hz = 60\noutput_rate_hz = 60"), "no complaint");
   EXPECT_EQ(complaint_on_rates("tick_rate_hz = 60\noutput_rate_hz = 25"), "no complaint")
       << "rates need not divide the ticks";
-  EXPECT_EQ(complaint_on_rates("tick_rate_hz = [60, 20]\noutput_rate_hz = [0, 30]"),
-            "dir/x.toml: output_rate_hz = 30 is more than tick_rate_hz = 20: expected as many ticks "
-            "a second at least, or 0, by which each is told");
+  EXPECT_EQ(
+      complaint_on_rates("tick_rate_hz = [60, 20]\noutput_rate_hz = [0, 30]"),
+      "dir/x.toml: output_rate_hz = 30 is more than tick_rate_hz = 20: expected as many ticks "
+      "a second at least, or 0, by which each is told");
   EXPECT_THAT(complaint_on_rates("keys = 'live'\nnodes = 2\noutput_rate_hz = 10"),
               HasSubstr("dir/x.toml: output_rate_hz = 10 is of one server: expected nodes = 1"));
   EXPECT_THAT(complaint_on_rates("[[parts]]\nname = 'a'\noutput_rate_hz = 90"),
@@ -65,7 +66,8 @@ TEST(ExperimentOutputRate, RefusesWhatNoClientCanBeTold) {
 
 RunRecord run_at(double output_rate_hz, const std::filesystem::path& folder) {
   const Experiment experiment = parse_experiment(
-      of_crowd + "schemes = 'region'\npolicies = 'periodic'\nclients = 12\ntransport = 'virtual'\n" +
+      of_crowd +
+          "schemes = 'region'\npolicies = 'periodic'\nclients = 12\ntransport = 'virtual'\n" +
           "tick_rate_hz = 60\nduration_s = 1\nwarm_up_s = 0.5\noutput_rate_hz = " +
           std::to_string(output_rate_hz),
       "dir/x.toml", {});
