@@ -119,6 +119,20 @@ void FederationExecution::send_host_message(FederateHandle federate, Bytes conte
     parts_->ground.federates[*slot].outbox.after_updates(HostMessage{content});
 }
 
+void FederationExecution::set_update_rate(FederateHandle federate, UpdateRate rate) {
+  assert(rate.is_valid());
+  if (const auto slot = parts_->ground.federates.joined(federate))
+    parts_->set_update_rate(*slot, rate);
+}
+
+void FederationExecution::send_at_once(FederateHandle federate, ObjectHandle object,
+                                       AttributeSet attributes) {
+  const auto slot = parts_->ground.federates.joined(federate);
+  const ObjectSlot object_slot = parts_->ground.objects.find(object);
+  if (slot && object_slot != no_object)
+    parts_->rates.send_at_once(*slot, object_slot, object, attributes);
+}
+
 bool FederationExecution::take_notice(FederateHandle federate) {
   const auto slot = parts_->ground.federates.joined(federate);
   return slot && std::exchange(parts_->ground.federates[*slot].has_notice, false);

@@ -85,6 +85,13 @@ class FederationExecution final : public CentralComponent {
   /// Sends `content`, at most HostMessage::size_max bytes (asserted), to one federate behind all
   /// else of the next flush; the RTI does not look into it. A federate that left is sent nothing.
   void send_host_message(FederateHandle federate, Bytes content);
+  /// Changes of scope and values go to `federate` at this rate from now on, all else at once
+  /// (docs/rti.md, "Update rates"). `rate` must be valid (asserted). Not for federates that are
+  /// constrained by time, which never wait.
+  void set_update_rate(FederateHandle federate, UpdateRate rate);
+  /// Updates of `object` with any of `attributes` go to `federate` at once, whatever its rate: one
+  /// object each, its own. What does not exist is ignored.
+  void send_at_once(FederateHandle federate, ObjectHandle object, AttributeSet attributes);
   /// Whether the federate has sent the host a notice (Ambassador::notify_host) since the last call.
   bool take_notice(FederateHandle federate);
   /// From now on the host itself tells `federate` of the objects of `object_class`: their scope is

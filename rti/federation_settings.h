@@ -8,6 +8,7 @@
 
 #include "im/filter.h"
 #include "rti/types.h"
+#include "rti/update_rate.h"
 
 namespace rink::rti {
 
@@ -38,6 +39,8 @@ struct FederationSettings {
                                          << 18;  ///< of those that their sender can still take back
   std::size_t timed_bytes_per_federate_max = 64u << 20;  ///< of what those messages say
   Timeouts timeouts;
+  UpdateRate update_rate;  ///< of federates that join; FederationExecution::set_update_rate changes
+                           ///< that of one
   std::uint32_t keyframe_period =
       1;  ///< every so-many-th flush with periodic state is a keyframe (docs/wire.md, "Baselines")
 };

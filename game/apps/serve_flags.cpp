@@ -166,6 +166,12 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(number_from(1.0, 1000.0))
       .shows_default();
   flags
+      .option("--output-rate", options.output_rate_hz,
+              "times a second, at most --rate, that a client is told of changes, at ticks of its "
+              "own; what happens to its own bat is told at the next tick; 0: at each tick")
+      .check(zero_or_number_from(0.1, 1000.0))
+      .shows_default();
+  flags
       .option("--spread", options.spread,
               "part of a tick over which its writes are staggered, each client's at a phase of "
               "its own; 0: all at once")

@@ -31,7 +31,7 @@ namespace report {
 // Fields of a server, of peers in its place, and in part of the bots.
 inline constexpr TextField mode{"mode"}, scheme{"scheme"}, policy{"policy"};
 inline constexpr AmountField threshold{"threshold"}, clients{"clients"},
-    tick_rate_hz{"tick_rate_hz"};
+    tick_rate_hz{"tick_rate_hz"}, output_rate_hz{"output_rate_hz"};
 inline constexpr CountField seed{"seed"}, ticks{"ticks"};
 inline constexpr AmountField ticks_on_time_fraction{"ticks_on_time_fraction"},
     physics_us_per_tick{"physics_us_per_tick"}, filter_us_per_tick{"filter_us_per_tick"},

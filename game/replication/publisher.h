@@ -78,6 +78,10 @@ class Publisher {
     return published_[entity.index].object;
   }
 
+  /// Attributes of entities that are updated when something happens to the entity, as opposed to
+  /// positions and snapshots, which are updated at every tick.
+  rti::AttributeSet event_attributes() const { return {model_.input, model_.trajectory}; }
+
   /// False of the field and the score.
   bool is_entity(rti::ObjectHandle object) const { return object != field_ && object != score_; }
 

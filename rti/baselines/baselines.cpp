@@ -53,7 +53,8 @@ const QuantisedCodec* Baselines::codec_of(const UpdateRun& run) const {
       .baselines.get();
 }
 
-void Baselines::begin(std::span<const UpdateRun> runs, std::size_t federate_slots) {
+void Baselines::begin(std::span<const UpdateRun> runs, std::size_t federate_slots,
+                      std::uint64_t& flushes) {
   is_keyframe_ = false;
   if (stride_ == 0) return;
   assert(run_count_ == 0 && block_count_ == 0);  // the flush before has ended
@@ -67,7 +68,7 @@ void Baselines::begin(std::span<const UpdateRun> runs, std::size_t federate_slot
     read(runs[i], periodic_[i]);
     is_any = true;
   }
-  if (!is_any || flushes_++ % period_ != 0) return;
+  if (!is_any || flushes++ % period_ != 0) return;
   is_keyframe_ = true;
   ++counters_.keyframes;
   ++number_;

@@ -40,7 +40,8 @@ class Baselines {
   /// the baselines and the more acknowledgements.
   Baselines(const Fom& fom, std::uint32_t keyframe_period);
 
-  void begin(std::span<const UpdateRun> runs, std::size_t federate_slots);
+  /// `flushes` counts those with periodic state that the same federates receive.
+  void begin(std::span<const UpdateRun> runs, std::size_t federate_slots, std::uint64_t& flushes);
   void end();
   /// True if the run is sent as differences to baselines.
   bool covers(std::size_t run) const { return run < run_count_ && periodic_[run].codec != nullptr; }
@@ -121,7 +122,6 @@ class Baselines {
   const Fom& fom_;
   std::uint32_t period_;
   std::size_t stride_ = 0;  ///< most fields of any attribute that has baselines; 0: none has
-  std::uint64_t flushes_ = 0;
   std::uint16_t number_ = 0;
   bool is_keyframe_ = false;
   std::vector<Keyframe> keyframes_;  ///< by number, going round

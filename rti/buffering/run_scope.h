@@ -34,4 +34,29 @@ void for_each_record(const UpdateRun& run, const FederateInterest& interest, Vis
   }
 }
 
+/// Takes an object out of a federate's scope for as long as it lives.
+class LeftOut {
+ public:
+  LeftOut(FederateInterest& interest, ObjectSlot object)
+      : interest_(interest),
+        object_(object),
+        is_in_scope_(object != no_object && interest.in_scope.contains(object)),
+        is_reflected_(object != no_object && interest.turns &&
+                      interest.turns->reflected.contains(object)) {
+    if (is_in_scope_) interest_.in_scope.erase(object_);
+    if (is_reflected_) interest_.turns->reflected.erase(object_);
+  }
+  LeftOut(const LeftOut&) = delete;
+  LeftOut& operator=(const LeftOut&) = delete;
+  ~LeftOut() {
+    if (is_in_scope_) interest_.in_scope.insert(object_);
+    if (is_reflected_) interest_.turns->reflected.insert(object_);
+  }
+
+ private:
+  FederateInterest& interest_;
+  const ObjectSlot object_;
+  const bool is_in_scope_, is_reflected_;
+};
+
 }  // namespace rink::rti

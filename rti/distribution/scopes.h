@@ -35,6 +35,9 @@ struct FederateInterest {
   Bitmap unannounced;  ///< in scope, to be announced by a later flush; they keep `needs_full_state`
                        ///< until then
   bool has_unannounced = false;
+  Bitmap unannounced_exits;  ///< went out of scope between two turns of a federate that is not
+                             ///< updated at every match (rti/update_rate.h)
+  bool has_unannounced_exits = false;
   std::uint32_t announced_to = 0, sent_to = 0;  ///< where the last flush without room for all of
                                                 ///< `unannounced` and `needs_full_state` stopped
   std::vector<ObjectSlot> sent_now;  ///< announced and sent in full before all else in this flush,

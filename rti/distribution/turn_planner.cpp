@@ -66,9 +66,10 @@ void TurnPlanner::plan_turns(FederateInterest& interest) const {
   assert(is_needed() && interest.turns);
   Turns& turns = *interest.turns;
   turns.waiting.clear();
+  const std::uint64_t number = turns.number > 0 ? turns.number : match_;
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {
     const Bitmap& tier = turns.tiers[k - 1];
-    const std::uint64_t turn = turn_of(match_, k);
+    const std::uint64_t turn = turn_of(number, k);
     for (std::size_t i = 0; i < tier.word_count(); ++i)
       turns.waiting.insert_word(i, tier.word(i) & ~turn & interest.in_scope.word(i) &
                                        ~interest.needs_full_state.word(i) & ~turns.prompt.word(i));

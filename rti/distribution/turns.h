@@ -20,6 +20,8 @@ struct Turns {
   std::array<Bitmap, tier_max> tiers;  ///< in scope and in tier 1, 2 ...; the others are in tier 0
   Bitmap
       prompt;  ///< changed their tiers since the last flush: what is late of them waits no longer
+  std::uint64_t number =
+      0;  ///< of the federate's turn, if it is not updated at every match; else 0
   std::uint64_t shared_out = 0;  ///< the match whose budget is spent
   LateStates late;
 

@@ -26,7 +26,7 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
       residuals(ground.basis(), objects.residuals.model()),
       sender(ground.basis(),
              {*ground.distribution, *ground.buffering, objects.newest, announcements, periodic,
-              turns, residuals, objects.sender, objects.receiver},
+              turns, residuals, objects.sender, objects.receiver, rates},
              expulsion()),
       time(ground.basis(),
            {objects.publications,
@@ -61,6 +61,7 @@ void FederationParts::advance_clock(double now) {
 }
 
 void FederationParts::match() {
+  rates.begin_match();
   ground.distribution->match();
   ground.counters.scope_entries = ground.distribution->counters().entries;
   ground.counters.scope_exits = ground.distribution->counters().exits;
@@ -82,6 +83,16 @@ void FederationParts::flush(Outlet& outlet) {
   connections.close_pending(outlet);
 }
 
+void FederationParts::set_update_rate(std::uint32_t slot, UpdateRate rate) {
+  rates.set_rate(slot, rate);
+  FederateInterest& interest = ground.distribution->of(slot);
+  for (std::size_t i = 0; i < interest.in_scope.word_count(); ++i)
+    interest.needs_full_state.insert_word(i, interest.in_scope.word(i));
+  interest.needs_any_full_state = true;
+  interest.holds_former.clear();
+  if (interest.turns) interest.turns->number = 0;
+}
+
 std::uint32_t FederationParts::admit(ConnectionId connection, const JoinMessage& message) {
   const std::uint32_t slot = ground.federates.admit(connection, message.name, message.type);
   objects.joined(slot);
@@ -90,6 +101,8 @@ std::uint32_t FederationParts::admit(ConnectionId connection, const JoinMessage&
   declarations.joined(slot);
   time.joined(slot);
   ground.distribution->add_federate(slot);
+  rates.joined(slot);
+  rates.set_rate(slot, ground.settings.update_rate);
   membership.joined(slot);
   synchronization.joined(slot);
   management_objects.joined(slot);
@@ -104,6 +117,7 @@ void FederationParts::remove(std::uint32_t slot, ResignReason reason) {
   objects.requests.left(slot);
   ground.buffering->remove_federate(slot);
   periodic.left(slot);
+  rates.left(slot);
   objects.objects.left(slot);
   ground.federates.retire(slot);
   subscriptions_changed(slot);

@@ -11,6 +11,7 @@
 #include "rti/federation/delivery/residual_writer.h"
 #include "rti/federation/delivery/sender.h"
 #include "rti/federation/delivery/turn_writer.h"
+#include "rti/federation/delivery/update_rates.h"
 #include "rti/federation/expulsion.h"
 #include "rti/federation/federation_ground.h"
 #include "rti/federation/management/federation_census.h"
@@ -37,6 +38,8 @@ class FederationParts final : private FrameHandler {
   void advance_clock(double now);
   void match();
   void flush(Outlet& outlet);
+  /// The federate is updated at `rate` from now on, with all in its scope anew at its next turn.
+  void set_update_rate(std::uint32_t slot, UpdateRate rate);
   /// The federate's subscriptions have changed: notifies publishers at once, and the RTI's own
   /// objects, which get their handles now.
   void subscriptions_changed(std::uint32_t slot);
@@ -56,6 +59,7 @@ class FederationParts final : private FrameHandler {
   PeriodicWriter periodic;
   TurnWriter turns;
   ResidualWriter residuals;
+  UpdateRates rates;
   Sender sender;
   TimeService time;
   ManagementObjects management_objects;

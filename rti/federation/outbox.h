@@ -30,6 +30,7 @@ class Outbox {
   /// For writers of messages of many parts.
   std::vector<std::byte>& head() { return head_; }
   Bytes tail() const { return tail_; }
+  bool is_empty() const { return head_.empty() && tail_.empty(); }
   /// Clears what has been sent.
   void clear() {
     head_.clear();

@@ -10,8 +10,10 @@
 namespace rink::game {
 namespace {
 
-rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme) {
+rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,
+                                            rti::UpdateRate update_rate) {
   rti::FederationSettings settings;
+  settings.update_rate = update_rate;
   settings.federation = "rink";
   settings.filter = scheme;
   settings.filter_settings = filter_settings(scene, 0.0);
@@ -26,7 +28,7 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
       model_(fom_),
       hub_(network_),
       server_endpoint_(network_),
-      execution_(fom_, federation_settings(scene, settings.scheme)),
+      execution_(fom_, federation_settings(scene, settings.scheme, settings.update_rate)),
       host_(execution_) {
   hub_.listen("rti");
   host_.add(hub_);

@@ -35,6 +35,7 @@ struct LockstepSettings {
   double view_margin = 0.0;
   bool extrapolates = true, declares_regions = true;
   std::uint32_t told = 0;  ///< the first so many clients do not compute, whatever the policy
+  rti::UpdateRate update_rate = {};  ///< of every federate
   ServerSettings server = {};
 };
 

@@ -22,6 +22,19 @@ void push_facts(const Server& server, rti::FederationExecution& federation, Game
 
 }  // namespace
 
+/// A player feels at once what its own keys and collisions do to its bat. What is sent at each tick
+/// anyway waits.
+void send_own_at_once(const Server& server, rti::FederationExecution& federation,
+                      rti::AttributeSet attributes) {
+  for (const auto& [object, entity] : server.publisher().registered())
+    if (entity.player)
+      if (const auto federate = server.seats().federate_of(*entity.player))
+        federation.send_at_once(*federate, object, attributes);
+  for (const auto& [federate, player] : server.seats().offered())
+    federation.send_at_once(federate, server.publisher().object(*server.game().bat(player)),
+                            attributes);
+}
+
 void push_filter_hints(const Server& server, rti::FederationExecution& federation,
                        GameFacts& facts) {
   for (const auto& [object, entity] : server.publisher().registered())
@@ -29,6 +42,7 @@ void push_filter_hints(const Server& server, rti::FederationExecution& federatio
   for (const auto& [federate, player] : server.seats().offered())
     federation.set_federate_role(federate,
                                  role_of(server.game().entity(*server.game().bat(player)), false));
+  send_own_at_once(server, federation, server.publisher().event_attributes());
   const im::Traits traits = federation.filter().traits();
   if (traits.uses_headings)
     server.seats().for_each([&](rti::FederateHandle federate, const Seats::Seat& seat) {

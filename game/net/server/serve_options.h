@@ -28,8 +28,9 @@ struct ServeOptions {
       balance_windows = 25;   ///< after which their zones may shift; 0: never
   std::uint64_t seed = 0;
   bool is_time_managed = false, has_second_core = false;
-  double rate_hz = 30.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0, patience_s = 30.0,
-         node_patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0, every_s = 0.0;
+  double rate_hz = 30.0, output_rate_hz = 0.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0,
+         patience_s = 30.0, node_patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0,
+         every_s = 0.0;
   double spread = 0.0;
   double threshold = threshold_default;                          ///< m
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none

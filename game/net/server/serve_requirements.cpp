@@ -1,6 +1,7 @@
 // Checks flags; errors name the flag and what is allowed.
 #include "game/net/server/serve_requirements.h"
 
+#include <sstream>
 #include <stdexcept>
 
 #include "game/control/match_flow.h"
@@ -92,6 +93,22 @@ void require_exact(const ServeOptions& options) {
         "can't be given with it");
 }
 
+/// Throws if clients cannot be told less often than the game ticks.
+void require_output_rate(const ServeOptions& options) {
+  if (options.output_rate_hz == 0.0) return;
+  if (options.output_rate_hz > options.rate_hz) {
+    std::ostringstream text;
+    text << "--output-rate: clients cannot be told " << options.output_rate_hz
+         << " times a second of a game of --rate " << options.rate_hz
+         << "; allowed is from 0.1 to that, and 0 for each tick";
+    throw std::runtime_error(text.str());
+  }
+  if (needs_every_tick(options))
+    throw std::runtime_error(
+        "--output-rate: --policy exact, a hosted match, --nodes, --join, --transport mpi, --pace "
+        "synchronous and --time-management need every tick to be told and can't be given with it");
+}
+
 /// Throws if other options need a game from the scene's beginning.
 void require_beginning(const ServeOptions& options) {
   if (options.from_state.empty()) return;
@@ -103,6 +120,11 @@ void require_beginning(const ServeOptions& options) {
 }
 
 }  // namespace
+
+bool needs_every_tick(const ServeOptions& options) {
+  return options.policy == exact_policy || !options.hosted.empty() || is_node(options) ||
+         options.pace != "realtime" || options.is_time_managed;
+}
 
 rti::FederationFile follow_federation_file(ServeOptions& options) {
   if (options.federation_file.empty())
@@ -124,6 +146,7 @@ rti::FederationSettings federation_of(const ServeOptions& options, const Scene& 
                                       const std::string& federation, im::Worker* worker) {
   rti::FederationSettings settings = federation_settings(scene, options.scheme, options.cell_size);
   settings.match_worker = worker;
+  settings.update_rate = update_rate_of(options.output_rate_hz, options.rate_hz);
   settings.federation = federation;
   settings.members = options.members;
   if (!settings.members.empty())
@@ -148,6 +171,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   require_beginning(options);
   require_node(options);
   require_exact(options);
+  require_output_rate(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error(
         "--spread staggers writes to streams in real time: --pace synchronous and --transport "

@@ -135,6 +135,15 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   return settings;
 }
 
+rti::UpdateRate update_rate_of(double output_rate_hz, double tick_rate_hz) {
+  assert(0.0 <= output_rate_hz && output_rate_hz <= tick_rate_hz);
+  if (output_rate_hz == 0.0) return {};
+  const auto thousandths = [](double rate) {
+    return static_cast<std::uint32_t>(std::max(1ll, std::llround(1e3 * rate)));
+  };
+  return {thousandths(output_rate_hz), thousandths(tick_rate_hz)};
+}
+
 double cell_size_of_nodes(const Scene& scene, const std::string& scheme, double cell_size) {
   if (cell_size > 0.0 || !im::takes_cell_size(scheme)) return cell_size;
   return im::cell_size_of(federation_settings(scene, scheme, 0.0).filter_settings);

@@ -89,6 +89,10 @@ class Serving {
 rti::FederationSettings federation_settings(const Scene& scene, const std::string& scheme,
                                             double cell_size);
 
+/// The rate at which clients are told of a game of `tick_rate_hz` [1/s] ticks at `output_rate_hz`,
+/// above 0 and at most that (asserted) and known to 0.001; 0: at every tick.
+rti::UpdateRate update_rate_of(double output_rate_hz, double tick_rate_hz);
+
 /// `cell_size` [m], or where that is 0 and the scheme has cells the one that follows from the
 /// world: nodes have different clients, whose views would choose different cells.
 double cell_size_of_nodes(const Scene& scene, const std::string& scheme, double cell_size);

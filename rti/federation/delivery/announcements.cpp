@@ -21,6 +21,7 @@ void Announcements::write(FlushContext& context, std::size_t end) {
   const std::size_t before = context.frame.size();
   const std::vector<ScopeEvent>& events = context.interest.events;
   block_.close();
+  if (context.interest.has_unannounced_exits) write_postponed_exits(context);
   if (context.interest.has_unannounced) write_postponed(context, end);
   // Of one match each object has at most one change: exits first make two blocks of many.
   const bool is_one_match = std::ranges::adjacent_find(events, std::ranges::greater_equal{},
@@ -39,6 +40,36 @@ void Announcements::write(FlushContext& context, std::size_t end) {
     write_all([](const ScopeEvent&) { return true; });
   }
   basis_.counters.scope_bytes_sent += context.frame.size() - before;
+}
+
+void Announcements::postpone(FederateInterest& interest) {
+  for (const ScopeEvent& event : interest.events) {
+    const Object& object = basis_.objects[event.slot];
+    if (!object.is_alive || object.object_class == interest.host_served) continue;
+    const bool is_exit = event.transition == im::Transition::left;
+    Bitmap& opposite = is_exit ? interest.unannounced : interest.unannounced_exits;
+    if (opposite.contains(event.slot)) {
+      opposite.erase(event.slot);
+    } else if (!is_exit) {
+      interest.unannounced.insert(event.slot);
+      interest.has_unannounced = true;
+    } else if (interest.known.contains(event.slot)) {
+      interest.unannounced_exits.insert(event.slot);
+      interest.has_unannounced_exits = true;
+    }
+  }
+  interest.events.clear();
+}
+
+void Announcements::write_postponed_exits(FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  interest.unannounced_exits.for_each([&](ObjectSlot object) {
+    if (basis_.objects[object].object_class != interest.host_served)
+      block_.append(context.frame.bytes(), OutOfScopeMessage{},
+                    basis_.objects[object].handle.value);
+  });
+  interest.unannounced_exits.clear();
+  interest.has_unannounced_exits = false;
 }
 
 void Announcements::write_postponed(FlushContext& context, std::size_t end) {
@@ -88,6 +119,7 @@ void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std:
   }
   interest.known.insert(at);
   interest.unannounced.erase(at);
+  interest.unannounced_exits.erase(at);
   block.append(bytes, InScopeMessage{}, object.handle.value);
 }
 

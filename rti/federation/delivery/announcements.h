@@ -28,11 +28,15 @@ class Announcements {
   /// Writes as many as fit into the frame up to `end`; the others stay unannounced until a later
   /// flush.
   void write(FlushContext& context, std::size_t end);
+  /// Notes this flush's changes of scope for the federate's next turn, which writes what they come
+  /// to: nothing for an object that is out of scope and back.
+  void postpone(FederateInterest& interest);
   /// A message in time-stamp order names the object: the next flush announces it and sends its
   /// state before all else.
   void send_state_now(std::uint32_t slot, ObjectSlot object);
 
  private:
+  void write_postponed_exits(FlushContext& context);
   void write_postponed(FlushContext& context, std::size_t end);
   void write_event(FlushContext& context, const ScopeEvent& event, std::size_t end);
   void announce(std::uint32_t slot, ObjectSlot object, std::vector<std::byte>& bytes,

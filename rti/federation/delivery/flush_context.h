@@ -28,6 +28,7 @@ struct FlushContext {
   GatheredFrame& frame;
   std::vector<ObjectSlot>& full_state_sent;  ///< their states on entry are in the frame
   DatagramPath path{};
+  bool has_turns = false;    ///< the federate is not updated at every match
   bool is_all_sent = false;  ///< no full state stays due after this flush
 };
 

@@ -22,8 +22,9 @@ class PeriodicWriter {
   Status handle_refusal(std::uint32_t slot, Reader& reader);
   void left(std::uint32_t slot) { baselines_.forget(slot); }
 
-  void begin_flush(std::span<const UpdateRun> runs) {
-    baselines_.begin(runs, basis_.federates.size());
+  /// `flushes`: see `Baselines::begin`.
+  void begin_flush(std::span<const UpdateRun> runs, std::uint64_t& flushes) {
+    baselines_.begin(runs, basis_.federates.size(), flushes);
   }
   void end_flush() { baselines_.end(); }
   /// True if that run of the flush is periodic state.

@@ -26,19 +26,99 @@ void fetch(const Value& value) {
 
 void Sender::flush(Outlet& outlet) {
   const std::span<const UpdateRun> runs = uses_.buffering.seal();
-  uses_.periodic.begin_flush(runs);
-  uses_.residuals.begin_flush(runs);
+  uses_.rates.add(runs);
+  const std::uint32_t limited = uses_.rates.limited_count();
+  if (limited < basis_.federates.joined_count())
+    flush_group(UpdateRates::every_match, runs, keyframes_, outlet);
+  std::deque<UpdateRates::Group>& groups = uses_.rates.groups();
+  for (std::uint32_t k = 0; limited > 0 && k < groups.size(); ++k)
+    if (groups[k].is_due && groups[k].federates > 0)
+      flush_group(k, groups[k].pending.seal(basis_.objects), groups[k].keyframes, outlet);
+  if (limited > 0) flush_between_turns(runs, outlet);
+  for (std::uint32_t k = 0; k < groups.size(); ++k)
+    if (groups[k].is_due) uses_.rates.end_turn(k);
+  uses_.buffering.clear();
+}
+
+void Sender::flush_group(std::uint32_t group, std::span<const UpdateRun> runs,
+                         std::uint64_t& keyframes, Outlet& outlet) {
+  uses_.periodic.begin_flush(runs, keyframes);
+  if (group == UpdateRates::every_match) uses_.residuals.begin_flush(runs);
   uses_.datagrams.begin_flush();
   for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot) {
     look_ahead(slot);
-    if (!basis_.federates[slot].is_joined) continue;
+    if (!basis_.federates[slot].is_joined || uses_.rates.group_of(slot) != group) continue;
     full_state_sent_.clear();
     FlushContext context{slot,   basis_.federates[slot], uses_.distribution.of(slot), runs,
                          frame_, full_state_sent_};
+    if (group != UpdateRates::every_match) {
+      context.has_turns = true;
+      if (context.interest.turns)
+        context.interest.turns->number = uses_.rates.groups()[group].turns;
+    }
     flush_federate(context, outlet);
+    if (!context.has_turns) continue;
+    context.interest.holds_former.clear();  // it is not sent every update
+    uses_.rates.note_turn(slot);
   }
   uses_.periodic.end_flush();
-  uses_.buffering.clear();
+}
+
+/// All but changes of scope and values is sent at once, and so are the values that `UpdateRates`
+/// lists; a federate for which there is neither costs a look.
+void Sender::flush_between_turns(std::span<const UpdateRun> runs, Outlet& outlet) {
+  std::span<const UpdateRates::Prompt> prompts = uses_.rates.prompts();
+  for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot) {
+    std::size_t own = 0;
+    while (own < prompts.size() && prompts[own].federate == slot) ++own;
+    const std::span<const UpdateRates::Prompt> due = prompts.first(own);
+    prompts = prompts.subspan(own);
+    JoinedFederate& federate = basis_.federates[slot];
+    if (!federate.is_joined || uses_.rates.group_of(slot) == UpdateRates::every_match ||
+        uses_.rates.groups()[uses_.rates.group_of(slot)].is_due)
+      continue;
+    FlushContext context{slot, federate, uses_.distribution.of(slot), {}, frame_, full_state_sent_};
+    if (!context.interest.sent_now.empty()) {  // announced already, and so are those before it
+      full_state_sent_.clear();
+      flush_federate(context, outlet);
+      context.interest.holds_former.clear();
+      continue;
+    }
+    uses_.announcements.postpone(context.interest);
+    uses_.received.acknowledge(slot, outlet);
+    const bool is_silent = basis_.now - federate.last_sent >= basis_.settings.timeouts.heartbeat_s;
+    if (due.empty() && !is_silent && federate.outbox.is_empty()) continue;
+    frame_.begin(federate.stamp_steps);
+    frame_.append(federate.outbox.head());
+    context.runs = runs;
+    write_prompts(context, due);
+    frame_.append(federate.outbox.tail());
+    federate.outbox.clear();
+    if (frame_.is_empty() && is_silent) frame_.enqueue(HeartbeatMessage{});
+    if (!frame_.is_empty()) send_frame(context, outlet);
+  }
+}
+
+/// What the federate is not sent whole waits for its turn.
+void Sender::write_prompts(FlushContext& context, std::span<const UpdateRates::Prompt> prompts) {
+  const FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  const std::size_t before = frame.size();
+  for (const UpdateRates::Prompt& each : prompts) {
+    const UpdateRun& run = context.runs[each.run];
+    const ObjectSlot object = run.slots[each.record];
+    if (run.owner == context.slot || run.object_class == interest.host_served ||
+        interest.needs_full_state.contains(object) ||
+        !interest.attributes_in_scope(object, run.object_class).includes(run.attributes))
+      continue;
+    frame.write_stamp(run.stamp);
+    frame.enqueue(UpdatesMessage{run.object_class, run.attributes.bits});
+    RecordWriter(frame.bytes()).add(run.records[each.record].handle, run.values(each.record));
+    uses_.rates.note_prompt(context.slot, run.attributes, run.stamp);
+    ++basis_.counters.updates_sent;
+    ++context.federate.counts.reflections_received;
+  }
+  basis_.counters.update_bytes_sent += frame.size() - before;
 }
 
 /// With many federates a federate's data leaves the cache between two flushes: the data of the next
@@ -88,10 +168,12 @@ void Sender::write_content(FlushContext& context, Outlet& outlet) {
   if (holds_back(context, outlet)) return hold_back(context);
   const bool has_turns = interest.turns && interest.host_served == FederateInterest::no_class;
   if (has_turns) uses_.turns.apply_turns(context);
+  // Stamps ascend within a frame, and that of full states is the newest.
+  if (context.has_turns) gather_runs(context);
   write_full_states(context, entry_end);
   if (has_turns) uses_.turns.catch_up(context);
   if (context.federate.channel && !context.federate.channel->due.empty()) write_due_states(context);
-  gather_runs(context);
+  if (!context.has_turns) gather_runs(context);
   uses_.datagrams.send(context, outlet);
 }
 
@@ -191,43 +273,46 @@ void Sender::hold_back(FlushContext& context) {
 
 void Sender::gather_runs(FlushContext& context) {
   FederateInterest& interest = context.interest;
-  GatheredFrame& frame = context.frame;
-  const std::size_t before = frame.size();
-  for (const UpdateRun& run : context.runs) {
+  const std::size_t before = context.frame.size();
+  for (std::size_t index = 0; index < context.runs.size(); ++index) {
+    const UpdateRun& run = context.runs[index];
     if (run.object_class == interest.host_served) continue;
     if (run.owner == context.slot) {
       uses_.residuals.sent_otherwise(run, interest);
       continue;
     }
-    const auto index = static_cast<std::size_t>(&run - context.runs.data());
-    if (context.path.channel != nullptr && uses_.datagrams.gather(index, context)) {
-      uses_.residuals.sent_otherwise(run, interest);
+    if (!context.has_turns) {
+      gather_whole(index, context);
       continue;
     }
-    if (uses_.periodic.covers(index)) {
-      uses_.periodic.gather(index, context);
-      continue;
-    }
-    if (uses_.residuals.gather(index, context)) continue;
-    if (!interest.is_uniform) {
-      uses_.residuals.sent_otherwise(run, interest);
-      gather_cut_run(run, context);
-      continue;
-    }
-    const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
-    if (wanted == run.attributes) uses_.residuals.sent_whole(run, interest);
-    else uses_.residuals.sent_otherwise(run, interest);
-    if (wanted.is_empty()) continue;
-    if (wanted != run.attributes) gather_cut_run(run, context);
-    else if (!interest.needs_any_full_state && is_all_in_scope(run, interest.reflected())) {
-      frame.write_stamp(run.stamp);
-      frame.add_shared(run.message);
-      basis_.counters.updates_sent += run.slots.size();
-    } else {
-      gather_run(run, context);
-    }
+    const LeftOut left_out(interest, uses_.rates.sent_before(context.slot, run));
+    gather_whole(index, context);
   }
-  basis_.counters.update_bytes_sent += frame.size() - before;
+  basis_.counters.update_bytes_sent += context.frame.size() - before;
+}
+
+void Sender::gather_whole(std::size_t index, FlushContext& context) {
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  const UpdateRun& run = context.runs[index];
+  if (context.path.channel != nullptr && uses_.datagrams.gather(index, context))
+    return uses_.residuals.sent_otherwise(run, interest);
+  if (uses_.periodic.covers(index)) return uses_.periodic.gather(index, context);
+  if (!context.has_turns && uses_.residuals.gather(index, context)) return;
+  if (!interest.is_uniform) {
+    uses_.residuals.sent_otherwise(run, interest);
+    return gather_cut_run(run, context);
+  }
+  const AttributeSet wanted = interest.by_class[run.object_class] & run.attributes;
+  if (wanted == run.attributes) uses_.residuals.sent_whole(run, interest);
+  else uses_.residuals.sent_otherwise(run, interest);
+  if (wanted.is_empty()) return;
+  if (wanted != run.attributes) return gather_cut_run(run, context);
+  if (interest.needs_any_full_state || !is_all_in_scope(run, interest.reflected()))
+    return gather_run(run, context);
+  frame.write_stamp(run.stamp);
+  frame.add_shared(run.message);
+  basis_.counters.updates_sent += run.slots.size();
 }
 
 void Sender::gather_run(const UpdateRun& run, FlushContext& context) {

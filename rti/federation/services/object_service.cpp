@@ -138,6 +138,7 @@ Status ObjectService::handle_local_delete(std::uint32_t slot, Reader& reader) {
   interest.in_scope.erase(object);
   interest.needs_full_state.erase(object);
   interest.unannounced.erase(object);
+  interest.unannounced_exits.erase(object);
   basis_.federates[slot].outbox.before_updates(RemoveObjectMessage{message.object});
   return std::nullopt;
 }
@@ -154,6 +155,7 @@ void ObjectService::remove(ObjectSlot object) {
     if (!federate.is_joined) continue;
     FederateInterest& interest = uses_.distribution.of(slot);
     interest.unannounced.erase(object);
+    interest.unannounced_exits.erase(object);
     if (!interest.known.contains(object)) continue;
     interest.known.erase(object);
     ++federate.objects_removed;
