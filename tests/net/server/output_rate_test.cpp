@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 
@@ -73,6 +75,25 @@ class RatedCrowd {
     return (replica->position_at(game.now()) - game.position(entity.id)).norm();
   }
 
+  /// All in the client's view is known to it, and all that is known is right to `error_max` [m].
+  void expect_truth(std::size_t client, const im::Region& view, double error_max,
+                    std::size_t& compared, double& greatest) {
+    const Game& game = rink.server().game();
+    const bool is_by_centre = rink.scheme() == "grid";
+    for (const Entity& entity : game.entities()) {
+      const double distance = off(client, entity);
+      ASSERT_TRUE(!std::isnan(distance) ||
+                  !overlaps(view, game.position(entity.id),
+                            is_by_centre ? Vector2(0.0, 0.0) : entity.half_extent))
+          << "client " << client << " misses entity " << entity.id.index;
+      if (std::isnan(distance)) continue;
+      ASSERT_LE(distance, error_max)
+          << "client " << client << ", entity " << entity.id.index << ", tick " << rink.tick_number;
+      greatest = std::max(greatest, distance);
+      ++compared;
+    }
+  }
+
   LockstepRink rink;
   std::vector<std::vector<std::uint64_t>> told;  ///< ticks, by client
   std::vector<double> ages;                      ///< of all news, in s
@@ -97,20 +118,7 @@ TEST_P(OutputRate, AClientHoldsTheTruthWheneverItIsTold) {
   double greatest = 0.0;
   for (int tick = 0; tick < 480 && !testing::Test::HasFatalFailure(); ++tick)
     crowd.tick([&](std::size_t client, const im::Region& view) {
-      const Game& game = crowd.rink.server().game();
-      for (const Entity& entity : game.entities()) {
-        const bool is_by_centre = crowd.rink.scheme() == "grid";
-        const double off = crowd.off(client, entity);
-        ASSERT_TRUE(!std::isnan(off) ||
-                    !overlaps(view, game.position(entity.id),
-                              is_by_centre ? Vector2(0.0, 0.0) : entity.half_extent))
-            << "client " << client << " misses entity " << entity.id.index;
-        if (std::isnan(off)) continue;
-        ASSERT_LE(off, parameter.error_max)
-            << "client " << client << ", entity " << entity.id.index << ", tick " << tick;
-        greatest = std::max(greatest, off);
-        ++compared;
-      }
+      crowd.expect_truth(client, view, parameter.error_max, compared, greatest);
     });
   EXPECT_GT(compared, 10'000u);
   EXPECT_EQ(crowd.rink.client(0).replicas().counters().malformed, 0u);
@@ -138,6 +146,28 @@ INSTANTIATE_TEST_SUITE_P(
                     RatedCase{"snapshot", "grid", 25.0, snapshot_error},
                     RatedCase{"dead-reckoning", "region", 20.0, 5e-3},
                     RatedCase{"dead-reckoning-drag", "region", 20.0, 5e-3}));
+
+/// Who is told of every tick is sent residuals to what it holds, and whoever misses some is not.
+TEST(OutputRates, ThatChangeAsTheGameGoesOnLeaveEveryClientWithTheTruth) {
+  RatedCrowd crowd("on-event", "region", 20.0);
+  std::mt19937 random(3);
+  std::size_t compared = 0;
+  double greatest = 0.0;
+  for (int tick = 0; tick < 480 && !testing::Test::HasFatalFailure(); ++tick) {
+    if (tick % 5 == 0) {
+      constexpr std::array rates_hz{0.0, 20.0, 7.5, 0.0};
+      const auto player = static_cast<std::uint32_t>(random() % crowd.rink.client_count());
+      const double rate_hz = rates_hz.at(random() % rates_hz.size());
+      crowd.rink.execution().set_update_rate(*crowd.rink.server().seats().federate_of(player),
+                                             update_rate_of(rate_hz, crowd_rate_hz));
+    }
+    crowd.tick([&](std::size_t client, const im::Region& view) {
+      crowd.expect_truth(client, view, trajectory_error_max, compared, greatest);
+    });
+  }
+  EXPECT_GT(compared, 10'000u);
+  EXPECT_GT(crowd.rink.execution().counters().residuals_sent, 100u);
+}
 
 TEST(OutputRates, ClientsTakeTurnsEvenly) {
   RatedCrowd crowd("periodic", "none", 20.0);
