@@ -68,12 +68,15 @@ ResidualStates::Taken* ResidualStates::begin_taken(const Object& object, Attribu
 /// The first that makes the residual shorter: two bodies that hit each other are alone in that.
 void ResidualStates::find_companion(Taken& taken, ResidualUpdate update, const FormerValues& former,
                                     Residual& residual) {
+  constexpr std::size_t tries_max = 4;     // where all values have one key, none is a hit
   constexpr std::size_t least_spared = 8;  // bits; a companion's handle is longer than a gap
-  for (std::size_t i = 0; i + 1 < taken_count_; ++i) {
+  std::size_t tried = 0;
+  for (std::size_t i = 0; i + 1 < taken_count_ && tried < tries_max; ++i) {
     Taken& other = taken_[i];
     if (other.key != taken.key || other.is_paired || other.object_class != taken.object_class ||
         other.object == taken.object)
       continue;
+    ++tried;
     update.companion = &other.change;
     companion_bits_.clear();
     BitWriter bits(companion_bits_);
