@@ -19,7 +19,8 @@ struct FederationCounters {
   std::uint64_t frames_received = 0, frames_sent = 0;
   std::uint64_t updates_received = 0,
                 updates_sent = 0,  ///< records; one sent to n federates counts n times
-      residuals_sent = 0;          ///< of these, as residuals
+      residuals_sent = 0,          ///< of these, as residuals
+      companions_sent = 0;         ///< of these, to what another object's update says, too
   std::uint64_t updates_put_off =
       0;  ///< records held back from a federate by its filter's tiers or budget,
   std::uint64_t updates_caught_up =

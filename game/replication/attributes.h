@@ -40,6 +40,7 @@ struct Shape {
   /// Its own drag [1/s], friction with the table and thrust by each held key [m/s^2], by which
   /// residuals of its trajectory are coded; 0 for none.
   float drag = 0.0f, friction = 0.0f, thrust = 0.0f;
+  float mass = 0.0f;  ///< kg; 0 of what no impact moves
 };
 
 /// The number of its player's key events in effect on a bat, and the keys that are down (bit k for
@@ -155,9 +156,10 @@ bool exchange(Stream& stream, Shape& shape) {
   return stream.number(shape.kind) && stream.number(shape.team) &&
          stream.number(shape.half_length) && stream.number(shape.half_width) &&
          stream.number(shape.drag) && stream.number(shape.friction) &&
-         stream.number(shape.thrust) && std::isfinite(shape.half_length) &&
-         std::isfinite(shape.half_width) && is_strength(shape.drag) &&
-         is_strength(shape.friction) && is_strength(shape.thrust);
+         stream.number(shape.thrust) && stream.number(shape.mass) &&
+         std::isfinite(shape.half_length) && std::isfinite(shape.half_width) &&
+         is_strength(shape.drag) && is_strength(shape.friction) && is_strength(shape.thrust) &&
+         is_strength(shape.mass);
 }
 
 template <class Stream>

@@ -150,6 +150,7 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input,
   ambassador_.commit_region_modifications(published.region);
   ambassador_.associate_regions_for_updates(published.object, published.region);
   const Resistance own = policy_.sent_drag(game.world().spec()).of(entity.kind);
+  const double mass = game.world().mass(entity.id);
   const Shape shape{
       .kind = static_cast<std::uint8_t>(entity.kind),
       .team = static_cast<std::uint8_t>(entity.team),
@@ -157,7 +158,8 @@ void Publisher::add(const Game& game, const Entity& entity, const Input& input,
       .half_width = static_cast<float>(entity.half_extent.y()),
       .drag = static_cast<float>(own.drag),
       .friction = static_cast<float>(own.friction),
-      .thrust = entity.player ? static_cast<float>(key_thrust(game, *entity.player)) : 0.0f};
+      .thrust = entity.player ? static_cast<float>(key_thrust(game, *entity.player)) : 0.0f,
+      .mass = std::isfinite(mass) ? static_cast<float>(mass) : 0.0f};
   encode(encoded_, shape, input);
   rti::Writer writer(encoded_);
   policy_.write(game, entity, writer);

@@ -1,4 +1,4 @@
-// Kind and team in a byte each, then five numbers: varints of twice the ten thousandths, or a one
+// Kind and team in a byte each, then six numbers: varints of twice the ten thousandths, or a one
 // and all bits of the float.
 #include "game/replication/shape_codec.h"
 
@@ -42,8 +42,9 @@ bool decode_number(rti::Reader& reader, float& value) {
   return (first & 1u) == 0 && first >> 1 < ten_thousandths_max;
 }
 
-std::array<float*, 5> numbers_of(Shape& shape) {
-  return {&shape.half_length, &shape.half_width, &shape.drag, &shape.friction, &shape.thrust};
+std::array<float*, 6> numbers_of(Shape& shape) {
+  return {&shape.half_length, &shape.half_width, &shape.drag,
+          &shape.friction,    &shape.thrust,     &shape.mass};
 }
 
 bool read_shape(rti::Reader& reader, Shape& shape) {

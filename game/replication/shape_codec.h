@@ -6,7 +6,7 @@
 namespace rink::game {
 
 /// Codes the object model's type Shape without loss: numbers of up to four decimals take one to
-/// three bytes each instead of four, so that a puck is 10 bytes instead of 22.
+/// three bytes each instead of four, so that a puck is 12 bytes instead of 26.
 class ShapeCodec : public rti::AttributeCodec {
  public:
   std::string name() const override { return "rink-shape-1"; }

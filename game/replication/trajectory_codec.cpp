@@ -290,21 +290,44 @@ bool TrajectoryCodec::decode(rti::Bytes coded, double time, std::vector<std::byt
   return true;
 }
 
-bool TrajectoryCodec::encode_residual(const rti::ResidualBasis& basis, rti::Bytes value,
-                                      double time, rti::BitWriter& bits) const {
-  Trajectory former, t;
-  Shape shape;
-  return game::decode(basis.former, former) && game::decode(basis.context, shape) &&
-         game::decode(value, t) && write_residual(bits, former, shape, time, t);
+std::optional<std::uint64_t> TrajectoryCodec::companion_key(rti::Bytes value) const {
+  Trajectory t;
+  if (!game::decode(value, t) || t.is_resting()) return std::nullopt;
+  return std::bit_cast<std::uint64_t>(t.time);
 }
 
-bool TrajectoryCodec::decode_residual(const rti::ResidualBasis& basis, double time,
-                                      rti::BitReader& bits, std::vector<std::byte>& value) const {
-  Trajectory former, t;
-  Shape shape;
-  if (!game::decode(basis.former, former) || !game::decode(basis.context, shape) ||
-      !read_residual(bits, former, shape, time, t))
+namespace {
+
+/// False if the values are malformed.
+bool read_basis(const rti::ResidualBasis& from, TrajectoryBasis& basis, Impact& impact) {
+  if (!game::decode(from.former, basis.former) || !game::decode(from.context, basis.shape))
     return false;
+  if (from.companion == nullptr) return true;
+  basis.impact = &impact;
+  return game::decode(from.companion->former, impact.former) &&
+         game::decode(from.companion->context, impact.shape) &&
+         game::decode(from.companion->value, impact.after);
+}
+
+}  // namespace
+
+bool TrajectoryCodec::encode_residual(const rti::ResidualBasis& from, rti::Bytes value, double time,
+                                      rti::BitWriter& bits) const {
+  TrajectoryBasis basis;
+  basis.time = time;
+  Impact impact;
+  Trajectory t;
+  return read_basis(from, basis, impact) && game::decode(value, t) &&
+         write_residual(bits, basis, t);
+}
+
+bool TrajectoryCodec::decode_residual(const rti::ResidualBasis& from, double time,
+                                      rti::BitReader& bits, std::vector<std::byte>& value) const {
+  TrajectoryBasis basis;
+  basis.time = time;
+  Impact impact;
+  Trajectory t;
+  if (!read_basis(from, basis, impact) || !read_residual(bits, basis, t)) return false;
   append(value, t);
   return true;
 }

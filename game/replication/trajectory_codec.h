@@ -20,6 +20,8 @@ class TrajectoryCodec : public rti::AttributeCodec {
   bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;
   bool has_residuals() const override { return true; }
   std::string_view context_type() const override { return "Shape"; }
+  /// Two bodies that hit each other go on from one instant.
+  std::optional<std::uint64_t> companion_key(rti::Bytes value) const override;
   bool encode_residual(const rti::ResidualBasis& basis, rti::Bytes value, double time,
                        rti::BitWriter& bits) const override;
   bool decode_residual(const rti::ResidualBasis& basis, double time, rti::BitReader& bits,

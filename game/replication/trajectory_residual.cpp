@@ -19,6 +19,8 @@ using Counts = std::array<std::int64_t, 2>;
 /// Of the lateness of a trajectory in steps of time, and of places. Velocities have one of four
 /// orders: a bat whose keys changed keeps its velocity, a graze changes it little, a hit a lot.
 constexpr unsigned late_order = 4, position_order = 1, class_bits = 2, along_bits = 2;
+/// Of the velocity that a companion's momentum leaves open: a larger one is of two other impacts.
+constexpr unsigned impact_order = 1, impact_bits_max = 16;
 constexpr std::array<unsigned, 4> velocity_orders{1, 6, 9, 11};
 constexpr std::int64_t late_max = 1 << 14;
 constexpr double count_max = 0x1p40, instant_max = 1e12;
@@ -201,58 +203,93 @@ Lead lead_of(const Trajectory& former, const Shape& shape, double instant) {
   return lead;
 }
 
-bool write_residual(rti::BitWriter& bits, const Trajectory& former, const Shape& shape, double time,
-                    const Trajectory& t) {
-  const std::optional<Law> law = law_of(t, former, shape);
-  if (!law || !(std::abs(time) < instant_max)) return false;
+namespace {
+
+/// Where the trajectory leads, with the momentum that the other body lost.
+Lead lead_after(const TrajectoryBasis& basis, double instant) {
+  Lead lead = lead_of(basis.former, basis.shape, instant);
+  if (basis.impact == nullptr) return lead;
+  const Lead other = lead_of(basis.impact->former, basis.impact->shape, instant);
+  const double ratio =
+      static_cast<double>(basis.impact->shape.mass) / static_cast<double>(basis.shape.mass);
+  const Vector2& after = basis.impact->after.velocity;
+  lead.velocity = {lead.velocity.x() + ratio * (other.velocity.x() - after.x()),
+                   lead.velocity.y() + ratio * (other.velocity.y() - after.y())};
+  return lead;
+}
+
+/// What is hit has a mass and an instant.
+bool is_sound(const Impact& impact, const Shape& shape, double time) {
+  return impact.shape.mass > 0.0f && shape.mass > 0.0f && !impact.after.is_resting() &&
+         std::abs(impact.after.time) < instant_max && impact.after.time <= time;
+}
+
+}  // namespace
+
+bool write_residual(rti::BitWriter& bits, const TrajectoryBasis& basis, const Trajectory& t) {
+  const std::optional<Law> law = law_of(t, basis.former, basis.shape);
+  if (!law || !(std::abs(basis.time) < instant_max)) return false;
   const bool is_resting = *law == Law::rest;
+  const Impact* impact = basis.impact;
+  if (impact != nullptr &&
+      (is_resting || !is_sound(*impact, basis.shape, basis.time) || t.time != impact->after.time))
+    return false;
   const auto position = exact_counts(t.position, trajectory_position_step),
              velocity = exact_counts(t.velocity, trajectory_velocity_step);
   const auto started = exact_count(t.time, trajectory_time_step);
-  const std::int64_t late = is_resting || !started ? 0 : time_count(time) - *started;
+  const std::int64_t late = is_resting || !started ? 0 : time_count(basis.time) - *started;
   if (!position || !velocity || !started || late < 0 || late > late_max) return false;
-  const double instant = static_cast<double>(time_count(time) - late) * trajectory_time_step;
+  const double instant = static_cast<double>(time_count(basis.time) - late) * trajectory_time_step;
   Trajectory read{.time = is_resting ? 0.0 : instant,
                   .position = value_of(*position, trajectory_position_step),
                   .velocity = value_of(*velocity, trajectory_velocity_step)};
-  follow_law(*law, former, t, read);
+  follow_law(*law, basis.former, t, read);
   if (!is_same(read, t)) return false;
-  const Lead lead = lead_of(former, shape, instant);
+  const Lead lead = lead_after(basis, instant);
+  const Counts moved = difference(*position, counts_of(lead.position, basis.former.position,
+                                                       trajectory_position_step)),
+               turned = difference(*velocity, counts_of(lead.velocity, basis.former.velocity,
+                                                        trajectory_velocity_step));
+  if (impact != nullptr && size_of(turned, impact_order) > impact_bits_max) return false;
   write_law(bits, *law, t.acceleration);
-  if (!is_resting) bits.golomb(static_cast<std::uint64_t>(late), late_order);
-  write(bits,
-        difference(*position, counts_of(lead.position, former.position, trajectory_position_step)),
-        position_order);
+  if (!is_resting && impact == nullptr) bits.golomb(static_cast<std::uint64_t>(late), late_order);
+  write(bits, moved, position_order);
   if (is_resting) return true;
-  const Counts turned =
-      difference(*velocity, counts_of(lead.velocity, former.velocity, trajectory_velocity_step));
+  if (impact != nullptr) return write(bits, turned, impact_order), true;
   const std::size_t k = velocity_class(turned);
   bits.bits(k, class_bits);
   write(bits, turned, velocity_orders[k]);
   return true;
 }
 
-bool read_residual(rti::BitReader& bits, const Trajectory& former, const Shape& shape, double time,
-                   Trajectory& t) {
-  if (!(std::abs(time) < instant_max)) return false;
+bool read_residual(rti::BitReader& bits, const TrajectoryBasis& basis, Trajectory& t) {
+  const Trajectory& former = basis.former;
+  const Impact* impact = basis.impact;
+  if (!(std::abs(basis.time) < instant_max)) return false;
   t = {.acceleration = former.acceleration, .drag = former.drag};
-  const std::optional<Law> law = read_law(bits, shape, t);
+  const std::optional<Law> law = read_law(bits, basis.shape, t);
   if (!law) return false;
   const bool is_resting = *law == Law::rest;
+  if (impact != nullptr && (is_resting || !is_sound(*impact, basis.shape, basis.time)))
+    return false;
   if (*law != Law::same) t.drag = Vector2::Constant(Trajectory::of_its_kind);
   if (is_resting) t.acceleration = {0.0, 0.0};
   std::uint64_t late = 0;
-  if (!is_resting &&
+  if (!is_resting && impact == nullptr &&
       (!bits.golomb(late, late_order) || late > static_cast<std::uint64_t>(late_max)))
     return false;
-  const double instant = static_cast<double>(time_count(time) - static_cast<std::int64_t>(late)) *
-                         trajectory_time_step;
-  const Lead lead = lead_of(former, shape, instant);
+  const double instant =
+      impact != nullptr
+          ? impact->after.time
+          : static_cast<double>(time_count(basis.time) - static_cast<std::int64_t>(late)) *
+                trajectory_time_step;
+  const Lead lead = lead_after(basis, instant);
   Counts position = counts_of(lead.position, former.position, trajectory_position_step),
          velocity = counts_of(lead.velocity, former.velocity, trajectory_velocity_step);
   std::size_t k = 0;
   if (!read(bits, position, position_order)) return false;
-  if (!is_resting && (!bits.bits(k, class_bits) || !read(bits, velocity, velocity_orders[k])))
+  if (!is_resting && impact == nullptr && !bits.bits(k, class_bits)) return false;
+  if (!is_resting && !read(bits, velocity, impact != nullptr ? impact_order : velocity_orders[k]))
     return false;
   t.position = value_of(position, trajectory_position_step);
   if (is_resting) return true;

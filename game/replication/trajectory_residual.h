@@ -15,12 +15,25 @@ struct Lead {
 };
 Lead lead_of(const Trajectory& former, const Shape& shape, double instant);
 
-/// Writes `t` as the residual to `former`, under a stamp of `time` [s]; false, with nothing
-/// written, if it is not on the grid or has a law that the form cannot say.
-bool write_residual(rti::BitWriter& bits, const Trajectory& former, const Shape& shape, double time,
-                    const Trajectory& t);
+/// How a body that hit another changed its motion.
+struct Impact {
+  Trajectory former, after;
+  Shape shape;
+};
+
+/// What a residual refers to.
+struct TrajectoryBasis {
+  Trajectory former;
+  Shape shape;
+  double time = 0.0;               ///< of the stamp [s]
+  const Impact* impact = nullptr;  ///< of the body that was hit, if the residual refers to it, too
+};
+
+/// Writes `t` as the residual to the trajectory before; false if it is not on the grid, has a law
+/// that the form cannot say, or, beside an impact, shares neither its instant nor its momentum.
+/// Nothing is written then.
+bool write_residual(rti::BitWriter& bits, const TrajectoryBasis& basis, const Trajectory& t);
 /// Reads what `write_residual` wrote; false if the bits are malformed.
-bool read_residual(rti::BitReader& bits, const Trajectory& former, const Shape& shape, double time,
-                   Trajectory& t);
+bool read_residual(rti::BitReader& bits, const TrajectoryBasis& basis, Trajectory& t);
 
 }  // namespace rink::game

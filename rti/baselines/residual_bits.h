@@ -36,16 +36,18 @@ inline unsigned gap_order(std::uint64_t span, std::uint64_t count) {
       std::min<std::uint64_t>(std::uint64_t(std::bit_width(mean * 11 / 16)), most));
 }
 
-/// The place in a block: the handle and attributes of the record before. The next record has
-/// another handle above it, and mostly the same attributes.
+/// The place in a block: the handle of the record before and the attributes of the last that had
+/// others than the highest alone. The next record has another handle above it, and mostly one of
+/// both sets.
 struct ResidualCursor {
-  AttributeSet residual;  ///< the attributes of the class that may travel so
-  unsigned order = 0;     ///< of gaps
+  AttributeSet residual;         ///< the attributes of the class that may travel so
+  unsigned order = 0;            ///< of gaps
+  unsigned companion_order = 0;  ///< of the ways from a record to its companion
   AttributeSet attributes{};
   bool has_begun = false;    ///< the first handle is known
   std::uint32_t handle = 0;  ///< of the record before
 
-  /// The greatest alone, at first.
+  /// The highest alone.
   static AttributeSet greatest(AttributeSet set) {
     assert(!set.is_empty());
     return AttributeSet(std::bit_floor(set.bits));
@@ -74,13 +76,28 @@ bool exchange_handle(Stream& stream, ResidualCursor& cursor, std::uint32_t& hand
   return true;
 }
 
+/// The same for a companion of the record at hand, whose handle is in no order.
+template <class Stream>
+bool exchange_companion(Stream& stream, const ResidualCursor& cursor, std::uint32_t& handle) {
+  assert(cursor.has_begun);
+  std::uint64_t step = 0;
+  if (!Stream::is_reading) step = zigzag(std::int64_t{handle} - std::int64_t{cursor.handle}) - 1;
+  if (!stream.golomb(step, cursor.companion_order) || step >> 33 != 0) return false;
+  const std::int64_t reached = std::int64_t{cursor.handle} + from_zigzag(step + 1);
+  handle = static_cast<std::uint32_t>(reached);
+  return reached >= 0 && reached <= 0xffffffffll;
+}
+
 /// Writes or reads which attributes follow; a reader returns false if there are none.
 template <class Stream>
 bool exchange_attributes(Stream& stream, ResidualCursor& cursor, AttributeSet& attributes) {
-  if (cursor.attributes.is_empty()) cursor.attributes = ResidualCursor::greatest(cursor.residual);
-  bool is_as_before = !Stream::is_reading && attributes == cursor.attributes;
+  const AttributeSet highest = ResidualCursor::greatest(cursor.residual);
+  bool is_highest = !Stream::is_reading && attributes == highest,
+       is_as_before = !Stream::is_reading && attributes == cursor.attributes;
+  if (!stream.flag(is_highest)) return false;
+  if (is_highest) return attributes = highest, true;
   if (!stream.flag(is_as_before)) return false;
-  if (is_as_before) return attributes = cursor.attributes, true;
+  if (is_as_before) return attributes = cursor.attributes, !attributes.is_empty();
   AttributeSet named;
   for (std::uint32_t left = cursor.residual.bits; left != 0; left &= left - 1) {
     const AttributeHandle each{static_cast<std::uint32_t>(std::countr_zero(left))};

@@ -2,6 +2,7 @@
 #include "rti/baselines/residual_model.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 
@@ -65,7 +66,7 @@ void ResidualModel::keep(std::uint16_t object_class, AttributeSet set, Bytes val
 }
 
 std::optional<ResidualBasis> ResidualModel::basis(const Class& of, std::uint32_t attribute,
-                                                  const FormerValues& former) const {
+                                                  const FormerValues& former) {
   const Kept& kept = of.attributes[attribute];
   if (!former.held.contains({attribute})) return std::nullopt;
   if (kept.context && !former.held.contains({*kept.context})) return std::nullopt;
@@ -75,6 +76,29 @@ std::optional<ResidualBasis> ResidualModel::basis(const Class& of, std::uint32_t
   return ResidualBasis{value(kept), kept.context ? value(of.attributes[*kept.context]) : Bytes()};
 }
 
+std::optional<ResidualChange> ResidualModel::change(const Class& of, std::uint32_t attribute,
+                                                    const FormerChange* companion) {
+  if (companion == nullptr || !companion->attributes.contains({attribute})) return std::nullopt;
+  const std::optional<ResidualBasis> known = basis(of, attribute, companion->before);
+  if (!known) return std::nullopt;
+  const Kept& kept = of.attributes[attribute];
+  return ResidualChange{known->former, known->context,
+                        Bytes(companion->after).subspan(kept.offset, kept.size)};
+}
+
+std::optional<std::uint64_t> ResidualModel::companion_key(std::uint16_t object_class,
+                                                          AttributeSet set, Bytes values) const {
+  const Class& of = classes_[object_class];
+  assert(of.residual.includes(set));
+  for (std::uint32_t left = set.bits; left != 0; left &= left - 1) {
+    const auto each = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t size = of.attributes[each].size;
+    if (const auto key = codec(object_class, each).companion_key(values.first(size))) return key;
+    values = values.subspan(size);
+  }
+  return std::nullopt;
+}
+
 bool ResidualModel::encode(const ResidualUpdate& update, Bytes values, const FormerValues& former,
                            BitWriter& bits) const {
   const Class& of = classes_[update.object_class];
@@ -82,7 +106,9 @@ bool ResidualModel::encode(const ResidualUpdate& update, Bytes values, const For
   for (std::uint32_t left = update.attributes.bits; left != 0; left &= left - 1) {
     const auto each = static_cast<std::uint32_t>(std::countr_zero(left));
     const std::uint32_t size = of.attributes[each].size;
-    const std::optional<ResidualBasis> known = basis(of, each, former);
+    std::optional<ResidualBasis> known = basis(of, each, former);
+    const std::optional<ResidualChange> other = change(of, each, update.companion);
+    if (known && other) known->companion = &*other;
     if (!known || !codec(update.object_class, each)
                        .encode_residual(*known, values.first(size), update.time, bits))
       return false;
@@ -97,7 +123,9 @@ bool ResidualModel::decode(const ResidualUpdate& update, FormerValues& former, B
   if (!of.residual.includes(update.attributes)) return false;
   for (std::uint32_t left = update.attributes.bits; left != 0; left &= left - 1) {
     const auto each = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::optional<ResidualBasis> known = basis(of, each, former);
+    std::optional<ResidualBasis> known = basis(of, each, former);
+    const std::optional<ResidualChange> other = change(of, each, update.companion);
+    if (known && other) known->companion = &*other;
     const std::size_t before = values.size();
     if (!known ||
         !codec(update.object_class, each).decode_residual(*known, update.time, bits, values) ||

@@ -20,11 +20,19 @@ struct FormerValues {
   std::vector<std::byte> bytes;  ///< at the class's offsets
 };
 
+/// An update of one object that residuals of others may refer to.
+struct FormerChange {
+  AttributeSet attributes;
+  FormerValues before;
+  std::vector<std::byte> after;  ///< at the class's offsets
+};
+
 /// What an update is about, but for its values.
 struct ResidualUpdate {
   std::uint16_t object_class = 0;
   AttributeSet attributes;
-  double time = 0.0;  ///< of its stamp [s]
+  double time = 0.0;                        ///< of its stamp [s]
+  const FormerChange* companion = nullptr;  ///< of an object of the same class
 };
 
 /// Immutable; refers to the model.
@@ -42,6 +50,9 @@ class ResidualModel {
 
   /// Notes the values of `set`, as in memory.
   void keep(std::uint16_t object_class, AttributeSet set, Bytes values, FormerValues& former) const;
+  /// The key of the first of the values that has one.
+  std::optional<std::uint64_t> companion_key(std::uint16_t object_class, AttributeSet set,
+                                             Bytes values) const;
   /// Appends the residuals of the values to what is held; false, with some of them perhaps
   /// appended, if one of them must travel whole. The attributes must be residual.
   bool encode(const ResidualUpdate& update, Bytes values, const FormerValues& former,
@@ -61,8 +72,10 @@ class ResidualModel {
     std::vector<Kept> attributes;  ///< by handle
     std::uint32_t size = 0;
   };
-  std::optional<ResidualBasis> basis(const Class& of, std::uint32_t attribute,
-                                     const FormerValues& former) const;
+  static std::optional<ResidualBasis> basis(const Class& of, std::uint32_t attribute,
+                                            const FormerValues& former);
+  static std::optional<ResidualChange> change(const Class& of, std::uint32_t attribute,
+                                              const FormerChange* companion);
   const AttributeCodec& codec(std::uint16_t object_class, std::uint32_t attribute) const {
     return *fom_.object_classes()[object_class].attributes[attribute].codec;
   }

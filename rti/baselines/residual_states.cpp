@@ -32,13 +32,63 @@ Residual ResidualStates::take(const Object& object, ObjectSlot slot, AttributeSe
   }
   bits_.clear();
   std::size_t size = 0;
+  const ResidualUpdate update{object_class, set, time};
   if (model_.residual(object_class).includes(set)) {
     BitWriter bits(bits_);
-    if (model_.encode({object_class, set, time}, values_, state.former, bits)) size = bits.at();
+    if (model_.encode(update, values_, state.former, bits)) size = bits.at();
   }
-  model_.keep(object_class, set, values_, state.former);
   if (size >= 8 * coded.size()) size = 0;
-  return {bits_, static_cast<std::uint32_t>(size)};
+  Residual residual{bits_, static_cast<std::uint32_t>(size), ++number_};
+  Taken* taken = size == 0 ? nullptr : begin_taken(object, set, time, state.former);
+  if (taken != nullptr) find_companion(*taken, update, state.former, residual);
+  model_.keep(object_class, set, values_, state.former);
+  if (taken != nullptr) taken->change.after = state.former.bytes;
+  return residual;
+}
+
+ResidualStates::Taken* ResidualStates::begin_taken(const Object& object, AttributeSet set,
+                                                   double time, const FormerValues& former) {
+  constexpr std::size_t taken_max = 256;  // a search among more would cost more than it spares
+  const auto key = model_.companion_key(object.object_class, set, values_);
+  if (!key) return nullptr;
+  if (time != taken_time_ || taken_count_ == taken_max) taken_count_ = 0;
+  taken_time_ = time;
+  if (taken_count_ == taken_.size()) taken_.emplace_back();
+  Taken& taken = taken_[taken_count_++];
+  taken.object = object.handle;
+  taken.number = number_;
+  taken.object_class = object.object_class;
+  taken.is_paired = false;
+  taken.key = *key;
+  taken.change.attributes = set;
+  taken.change.before = former;
+  return &taken;
+}
+
+/// The first that makes the residual shorter: two bodies that hit each other are alone in that.
+void ResidualStates::find_companion(Taken& taken, ResidualUpdate update, const FormerValues& former,
+                                    Residual& residual) {
+  constexpr std::size_t tries_max = 4;     // where all values have one key, none is a hit
+  constexpr std::size_t least_spared = 8;  // bits; a companion's handle is longer than a gap
+  std::size_t tried = 0;
+  for (std::size_t i = 0; i + 1 < taken_count_ && tried < tries_max; ++i) {
+    Taken& other = taken_[i];
+    if (other.key != taken.key || other.is_paired || other.object_class != taken.object_class ||
+        other.object == taken.object)
+      continue;
+    ++tried;
+    update.companion = &other.change;
+    companion_bits_.clear();
+    BitWriter bits(companion_bits_);
+    if (!model_.encode(update, values_, former, bits) || bits.at() + least_spared > residual.size)
+      continue;
+    residual.companion_size = static_cast<std::uint32_t>(bits.at());
+    residual.companion = other.number;
+    residual.companion_object = other.object;
+    other.is_paired = taken.is_paired = true;
+    break;
+  }
+  residual.companion_bits = companion_bits_;
 }
 
 void ResidualStates::bar(const Object& object, ObjectSlot slot) {

@@ -12,7 +12,12 @@ namespace rink::rti {
 /// An update as the residual to the one before it.
 struct Residual {
   Bytes bits;
-  std::uint32_t size = 0;  ///< bits; 0: the update must travel whole
+  std::uint32_t size = 0;    ///< bits; 0: the update must travel whole
+  std::uint32_t number = 0;  ///< of the update, from 1 on
+  /// The shorter residual for who is sent the companion's update, too: that of number `companion`.
+  Bytes companion_bits{};
+  std::uint32_t companion_size = 0, companion = 0;
+  ObjectHandle companion_object{};
 };
 
 /// Follows the updates of all objects in the order in which federates receive them. Codes each once
@@ -35,17 +40,35 @@ class ResidualStates {
   void bar(const Object& object, ObjectSlot slot);
 
  private:
+  /// An update that later ones of the same time may refer to, one of them at most.
+  struct Taken {
+    ObjectHandle object;
+    std::uint32_t number = 0;
+    std::uint16_t object_class = 0;
+    bool is_paired = false;
+    std::uint64_t key = 0;
+    FormerChange change;
+  };
   struct State {
     ObjectHandle object;  ///< slots are used again
     bool is_barred = false;
     FormerValues former;
   };
   State& state(const Object& object, ObjectSlot slot);
+  /// Begins to keep the update, or does not if it may be nobody's companion.
+  Taken* begin_taken(const Object& object, AttributeSet set, double time,
+                     const FormerValues& former);
+  void find_companion(Taken& taken, ResidualUpdate update, const FormerValues& former,
+                      Residual& residual);
 
   const Fom& fom_;
   ResidualModel model_;
   std::vector<State> states_;  ///< by slot
-  std::vector<std::byte> values_, bits_;
+  std::vector<std::byte> values_, bits_, companion_bits_;
+  std::vector<Taken> taken_;  ///< the first `taken_count_`, all of `taken_time_`
+  std::size_t taken_count_ = 0;
+  double taken_time_ = 0.0;
+  std::uint32_t number_ = 0;
 };
 
 }  // namespace rink::rti

@@ -38,6 +38,24 @@ UpdateRun& UpdateRuns::run_for(const ObjectUpdate& update) {
   return begin(update);
 }
 
+void UpdateRuns::append_residual(const Residual& residual, UpdateRun& run,
+                                 UpdateRun::Record& record) {
+  const auto append = [&run](Bytes bits) {
+    const auto at = static_cast<std::uint32_t>(run.residuals.size());
+    run.residuals.insert(run.residuals.end(), bits.begin(), bits.end());
+    return at;
+  };
+  run.has_residuals = true;
+  record.residual_at = append(residual.bits);
+  record.residual_size = residual.size;
+  record.number = residual.number;
+  if (residual.companion_size == 0) return;
+  record.companion_at = append(residual.companion_bits);
+  record.companion_size = residual.companion_size;
+  record.companion = residual.companion;
+  record.companion_handle = residual.companion_object.value;
+}
+
 void UpdateRuns::append(const ObjectUpdate& update) {
   const ObjectSlot slot = update.slot;
   const std::uint32_t handle = update.object.handle.value;
@@ -49,14 +67,11 @@ void UpdateRuns::append(const ObjectUpdate& update) {
   last_run_[slot] = static_cast<std::uint32_t>(&run - runs_.data()) + 1;
   run.slots.push_back(slot);
   write_handle(run.message, run.records.empty() ? 0 : run.records.back().handle, handle);
-  run.records.push_back({handle, static_cast<std::uint32_t>(run.message.size()),
-                         static_cast<std::uint32_t>(values.size()),
-                         static_cast<std::uint32_t>(run.residuals.size()), update.residual.size});
-  if (update.residual.size != 0) {
-    run.residuals.insert(run.residuals.end(), update.residual.bits.begin(),
-                         update.residual.bits.end());
-    run.has_residuals = true;
-  }
+  UpdateRun::Record& record = run.records.emplace_back();
+  record.handle = handle;
+  record.at = static_cast<std::uint32_t>(run.message.size());
+  record.size = static_cast<std::uint32_t>(values.size());
+  if (update.residual.size != 0) append_residual(update.residual, run, record);
   run.message.insert(run.message.end(), values.begin(), values.end());
   run.members.insert(slot);
   run.first_word = std::min<std::size_t>(run.first_word, slot / 64);

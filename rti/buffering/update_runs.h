@@ -31,6 +31,11 @@ struct UpdateRun {
     std::uint32_t handle = 0, at = 0, size = 0;
     std::uint32_t residual_at = 0,  ///< in `residuals`
         residual_size = 0;          ///< bits; 0 if there is none
+    std::uint32_t number = 0;       ///< of the update
+    /// The residual by a companion, after the other: 0 bits if there is none.
+    std::uint32_t companion_at = 0, companion_size = 0;
+    std::uint32_t companion = 0;         ///< the number of its update
+    std::uint32_t companion_handle = 0;  ///< the object
   };
   std::uint32_t owner = 0;
   std::uint16_t object_class = 0;
@@ -69,6 +74,7 @@ class UpdateRuns {
  private:
   UpdateRun& run_for(const ObjectUpdate& update);
   UpdateRun& begin(const ObjectUpdate& update);
+  static void append_residual(const Residual& residual, UpdateRun& run, UpdateRun::Record& record);
 
   std::vector<UpdateRun> runs_;
   std::size_t size_ = 0;

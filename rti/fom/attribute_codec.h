@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,10 +16,17 @@ namespace rink::rti {
 class BitReader;
 class BitWriter;
 
+/// How the same attribute of another object, the companion, changed in the same block; as in
+/// memory.
+struct ResidualChange {
+  Bytes former, context, value;
+};
+
 /// What both ends hold of an object when an attribute of it travels as a residual; as in memory.
 struct ResidualBasis {
   Bytes former;   ///< the attribute's value before
   Bytes context;  ///< the value of the attribute that the codec names, empty if it names none
+  const ResidualChange* companion = nullptr;  ///< if the residual refers to that, too
 };
 
 /// Codes the values of one data type on their way. Federates give and receive values as the object
@@ -53,6 +61,9 @@ class AttributeCodec {
   /// The data type of the attribute of the same class that residuals need; empty for none. Types of
   /// varying size don't count.
   virtual std::string_view context_type() const { return {}; }
+  /// Values of equal keys may be companions: two bodies that hit each other, for one. Nothing of a
+  /// value that tells nothing about others.
+  virtual std::optional<std::uint64_t> companion_key(Bytes /*value*/) const { return std::nullopt; }
   /// Appends the residual of `value`; false, with nothing appended, if it must travel whole. The
   /// result depends on the arguments alone, bit for bit, on any machine.
   virtual bool encode_residual(const ResidualBasis& /*basis*/, Bytes /*value*/, double /*time*/,

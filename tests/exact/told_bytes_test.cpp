@@ -60,14 +60,14 @@ double told(const std::string& policy, double rate_hz, double view_fraction, dou
 
 TEST(ToldBytes, WhoSeesAllOfTheCrowdIsSentLessUnderOnEventThanUnderAnyOther) {
   const double on_event = told("on-event", 60.0, 1.0, 4.0);
-  EXPECT_LT(on_event, 14400.0);
+  EXPECT_LT(on_event, 12800.0);
   EXPECT_LT(on_event, told("dead-reckoning", 60.0, 1.0, 4.0));
   EXPECT_LT(on_event, told("snapshot", 60.0, 1.0, 4.0));
 }
 
 TEST(ToldBytes, AViewOfATwentiethIsSentLessUnderOnEventThanUnderAnyOther) {
   const double on_event = told("on-event", 20.0, 0.05, 6.0);
-  EXPECT_LT(on_event, 2200.0);
+  EXPECT_LT(on_event, 2150.0);
   EXPECT_LT(on_event, told("dead-reckoning", 20.0, 0.05, 6.0));
   EXPECT_LT(on_event, told("snapshot", 20.0, 0.05, 6.0));
 }

@@ -33,7 +33,7 @@ std::vector<std::byte> after(std::vector<std::byte> head, const std::vector<std:
 }
 
 TEST(Attributes, OfPlacesAreNumbers) {
-  const std::vector<std::byte> bat(4), kind_and_team(2), no_strengths(12);
+  const std::vector<std::byte> bat(4), kind_and_team(2), no_strengths(16);
   EXPECT_TRUE(is_taken<Position>(bytes_of(-1.0f, 2.0f)));
   EXPECT_TRUE(is_taken<SeatOffer>(after(bat, bytes_of(-1.0f, 2.0f))));
   EXPECT_TRUE(is_taken<Extent>(bytes_of(1.0f, 2.0f)));

@@ -147,7 +147,10 @@ class ScanningPublisher {
           .half_width = static_cast<float>(entity.half_extent.y()),
           .drag = static_cast<float>(own.drag),
           .friction = static_cast<float>(own.friction),
-          .thrust = entity.player ? static_cast<float>(key_thrust(game, *entity.player)) : 0.0f};
+          .thrust = entity.player ? static_cast<float>(key_thrust(game, *entity.player)) : 0.0f,
+          .mass = std::isfinite(game.world().mass(entity.id))
+                      ? static_cast<float>(game.world().mass(entity.id))
+                      : 0.0f};
       encode(encoded_, shape, input);
       rti::Writer motion(encoded_);
       policy_.write(game, entity, motion);

@@ -16,6 +16,7 @@
 #include "game/replication/object_model.h"
 #include "game/replication/trajectory.h"
 #include "game/replication/trajectory_codec.h"
+#include "game/replication/trajectory_residual.h"
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 #include "rti/fom/fom_digest.h"
@@ -164,6 +165,32 @@ Trajectory lingering(int kind, double now, std::mt19937_64& random) {
   return t;
 }
 
+/// Two bodies that hit each other before every tick.
+struct Collisions {
+  Trajectory one{.position = {1.0, 2.0}, .velocity = {0.5, 0.0}},
+      other{.position = {1.2, 2.0}, .velocity = {-0.25, 0.0}};
+  static Shape shape(float mass) {
+    return {.half_length = 0.1f, .half_width = 0.1f, .drag = 0.25f, .mass = mass};
+  }
+  void next(double now, std::mt19937_64& random) {
+    const double instant = std::floor(now * 1024.0 - static_cast<double>(random() % 16)) / 1024.0;
+    const auto rounded = [](const physics::Vector2& value) {
+      return physics::Vector2(std::nearbyint(value.x() * 2048.0) / 2048.0 + 0.0,
+                              std::nearbyint(value.y() * 2048.0) / 2048.0 + 0.0);
+    };
+    const Lead led = lead_of(one, shape(0.5f), instant),
+               lead = lead_of(other, shape(0.2f), instant);
+    const physics::Vector2 gain{static_cast<double>(random() % 1024) / 2048.0 - 0.25, 0.125};
+    const double ratio = static_cast<double>(0.5f) / static_cast<double>(0.2f);
+    one = {.time = instant,
+           .position = rounded(led.position),
+           .velocity = rounded(led.velocity + gain)};
+    other = {.time = instant,
+             .position = rounded(lead.position),
+             .velocity = rounded(lead.velocity + ratio * (led.velocity - one.velocity))};
+  }
+};
+
 TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntityByTheWirePage) {
   if (!rti::testing::has_python()) GTEST_SKIP() << "there is no python3";
   const ObjectModel names(model());
@@ -187,7 +214,10 @@ TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntit
   const auto input_of = [&](std::uint32_t k) {
     return Input{.count = k % 3 == 0 ? k : count, .held = static_cast<std::uint8_t>(k % 16)};
   };
-  const rti::ObjectHandle match = rink.register_object_instance(names.match);
+  const rti::ObjectHandle match = rink.register_object_instance(names.match),
+                          one = rink.register_object_instance(names.entity),
+                          other = rink.register_object_instance(names.entity);
+  Collisions collisions;
   for (std::uint32_t tick = 0; tick < 64; ++tick) {
     const rti::Stamp stamp{0.3 * tick, tick};
     const int kind = static_cast<int>(tick % 7);
@@ -202,7 +232,8 @@ TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntit
                                                 .half_width = 0.2f,
                                                 .drag = tick % 2 == 0 ? 0.25f : 0.0f,
                                                 .friction = tick % 4 < 2 ? 0.0f : 0.4f,
-                                                .thrust = 2.5f},
+                                                .thrust = 2.5f,
+                                                .mass = tick % 3 == 0 ? 0.5f : 0.2f},
                                           input_of(tick), trajectory_of(kind, stamp.time, random)),
                                    stamp);
     }
@@ -223,6 +254,18 @@ TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntit
           each, snapshot,
           encode(buffer, Snapshot{.position = {x, 2.0}, .velocity = {0.3, -0.001 * tick}}), stamp);
     }
+    if (tick == 0) {
+      for (const auto& [each, mass] : {std::pair(one, 0.5f), std::pair(other, 0.2f)})
+        rink.update_attribute_values(each, first,
+                                     encode(buffer, Collisions::shape(mass), Input{},
+                                            each == one ? collisions.one : collisions.other),
+                                     stamp);
+    } else {
+      collisions.next(stamp.time, random);
+      rink.update_attribute_values(one, {names.trajectory}, encode(buffer, collisions.one), stamp);
+      rink.update_attribute_values(other, {names.trajectory}, encode(buffer, collisions.other),
+                                   stamp);
+    }
     MatchState state;
     state.number = tick, state.until_s = 0.7 * tick;
     rink.update_attribute_values(match, {names.match_state}, encode(buffer, state), stamp);
@@ -234,6 +277,7 @@ TEST(SecondReaderOfTheShippedModel, DecodesTrajectoriesInputsAndAllElseOfAnEntit
   EXPECT_GT(session.scribes[1].reflected.size(), 64u * 14);
   EXPECT_GT(session.execution.baseline_counters().differences_sent, 100u);
   EXPECT_GT(session.execution.counters().residuals_sent, 300u);
+  EXPECT_GT(session.execution.counters().companions_sent, 50u);
 }
 
 TEST(SecondReaderOfTheShippedModel, FindsItsHashByTheWirePage) {

@@ -35,8 +35,15 @@ class ResidualReader {
   std::size_t memory_bytes() const;
 
  private:
-  bool read_record(BitReader& bits, std::uint16_t object_class, ResidualCursor& cursor,
-                   const Stamp& stamp);
+  struct Block {
+    std::uint16_t object_class;
+    const Stamp& stamp;
+    BitReader& bits;
+    ResidualCursor& cursor;
+  };
+  bool read_records(const Block& block);
+  bool read_record(const Block& block, ObjectHandle object, const FormerChange* companion,
+                   FormerChange* change);
 
   AmbassadorBasis basis_;
   const ObjectBook& objects_;
@@ -44,6 +51,7 @@ class ResidualReader {
   ResidualModel model_;
   ObjectMap<FormerValues> former_;
   std::vector<std::byte> values_;
+  FormerChange change_;  ///< to which a companion refers
 };
 
 }  // namespace rink::rti

@@ -90,17 +90,18 @@ bool ResidualWriter::gather(std::size_t index, FlushContext& context) {
   if (index != group.first) return true;  // it was sent with the first
   GatheredFrame& frame = context.frame;
   if (is_whole(group, context.interest)) {
-    if (group.message.empty()) write(group.places, group.message);
+    if (group.message.empty()) group.companions = write(group.places, group.message);
     frame.write_stamp(run.stamp);
     frame.add_shared(group.message);
     basis_.counters.updates_sent += group.places.size();
     basis_.counters.residuals_sent += group.places.size();
+    basis_.counters.companions_sent += group.companions;
     return true;
   }
   choose(group, context.interest);
   if (!chosen_.empty()) {
     frame.write_stamp(run.stamp);
-    write(chosen_, frame.bytes());
+    basis_.counters.companions_sent += write(chosen_, frame.bytes());
   }
   basis_.counters.updates_sent += chosen_.size() + rest_.size();
   basis_.counters.residuals_sent += chosen_.size();
@@ -108,28 +109,69 @@ bool ResidualWriter::gather(std::size_t index, FlushContext& context) {
   return true;
 }
 
-void ResidualWriter::write(std::span<const Place> places, std::vector<std::byte>& bytes) {
+/// Among places by handle, those whose residual refers to the update of another that is among them,
+/// too.
+void ResidualWriter::find_companions(std::span<const Place> places) {
+  companion_of_.assign(places.size(), nobody);
+  is_companion_.assign(places.size(), false);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const UpdateRun::Record& later = record(places[i]);
+    if (later.companion_size == 0) continue;
+    const auto found = std::ranges::lower_bound(places, later.companion_handle, {}, &Place::handle);
+    if (found == places.end() || record(*found).number != later.companion) continue;
+    companion_of_[static_cast<std::size_t>(found - places.begin())] = static_cast<std::uint32_t>(i);
+    is_companion_[i] = true;
+  }
+}
+
+std::size_t ResidualWriter::write(std::span<const Place> places, std::vector<std::byte>& bytes) {
   assert(!places.empty());
+  find_companions(places);
   const UpdateRun& first = runs_[places.front().run];
-  ResidualCursor cursor{model_.residual(first.object_class),
-                        gap_order(places.back().handle - places.front().handle, places.size())};
+  std::size_t companions = 0;
+  std::uint64_t ways = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (companion_of_[i] == nobody) continue;
+    ++companions;
+    const std::uint32_t other = places[companion_of_[i]].handle;
+    ways +=
+        2 * std::uint64_t{std::max(other, places[i].handle) - std::min(other, places[i].handle)};
+  }
+  ResidualCursor cursor{
+      model_.residual(first.object_class),
+      gap_order(places.back().handle - places.front().handle, places.size() - companions),
+      gap_order(ways, companions + 1)};
   bits_.clear();
   {
     BitWriter bits(bits_);
     bits.bits(cursor.order, gap_order_bits);
-    for (const Place& place : places) {
-      const UpdateRun& run = runs_[place.run];
-      const UpdateRun::Record& record = run.records[place.record];
-      std::uint32_t handle = record.handle;
-      AttributeSet attributes = run.attributes;
-      exchange_handle(bits, cursor, handle);
-      exchange_attributes(bits, cursor, attributes);
-      append_bits(bits, run.residuals, 8 * std::size_t{record.residual_at}, record.residual_size);
-    }
+    bits.bits(cursor.companion_order, gap_order_bits);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (!is_companion_[i]) write_record(places, i, cursor, bits);
   }
   ResidualsMessage header{first.object_class, static_cast<std::uint32_t>(bits_.size())};
   rti::write(bytes, header);
   bytes.insert(bytes.end(), bits_.begin(), bits_.end());
+  return companions;
+}
+
+void ResidualWriter::write_record(std::span<const Place> places, std::size_t index,
+                                  ResidualCursor& cursor, BitWriter& bits) const {
+  const auto write_one = [&](const Place& place, std::uint32_t at, std::uint32_t size) {
+    AttributeSet attributes = runs_[place.run].attributes;
+    exchange_attributes(bits, cursor, attributes);
+    append_bits(bits, runs_[place.run].residuals, 8 * std::size_t{at}, size);
+  };
+  const std::uint32_t companion = companion_of_[index];
+  std::uint32_t handle = places[index].handle;
+  exchange_handle(bits, cursor, handle);
+  bits.flag(companion != nobody);
+  write_one(places[index], record(places[index]).residual_at, record(places[index]).residual_size);
+  if (companion == nobody) return;
+  handle = places[companion].handle;
+  exchange_companion(bits, cursor, handle);
+  const UpdateRun::Record& other = record(places[companion]);
+  write_one(places[companion], other.companion_at, other.companion_size);
 }
 
 /// Records that have no residual, or whose basis the federate lacks: a block for each run.

@@ -44,13 +44,21 @@ class ResidualWriter {
     bool is_all_residual = true;
     std::vector<Place> places;       ///< by handle
     std::vector<std::byte> message;  ///< for who receives all of it; written when it is needed
+    std::size_t companions = 0;      ///< in it
   };
   bool joins(const Group& group, const UpdateRun& run) const;
   void add(Group& group, std::size_t index);
   bool is_eligible(const UpdateRun& run, const FederateInterest& interest) const;
   bool is_whole(const Group& group, const FederateInterest& interest) const;
   void choose(const Group& group, const FederateInterest& interest);
-  void write(std::span<const Place> places, std::vector<std::byte>& bytes);
+  /// Returns how many of them are companions.
+  std::size_t write(std::span<const Place> places, std::vector<std::byte>& bytes);
+  void find_companions(std::span<const Place> places);
+  void write_record(std::span<const Place> places, std::size_t index, ResidualCursor& cursor,
+                    BitWriter& bits) const;
+  const UpdateRun::Record& record(const Place& place) const {
+    return runs_[place.run].records[place.record];
+  }
   void write_rest(FlushContext& context);
 
   FederationBasis basis_;
@@ -60,6 +68,10 @@ class ResidualWriter {
   std::size_t group_count_ = 0;
   std::vector<std::optional<std::uint32_t>> group_of_;  ///< by run
   std::vector<Place> chosen_, rest_;                    ///< as residuals, and whole
+  static constexpr std::uint32_t nobody = 0xffffffffu;
+  /// By place: the companion that follows it, and whether it follows another.
+  std::vector<std::uint32_t> companion_of_;
+  std::vector<bool> is_companion_;
   std::vector<std::byte> bits_;
 };
 

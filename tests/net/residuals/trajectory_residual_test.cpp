@@ -135,6 +135,98 @@ TEST(TrajectoryResidual, HitTakesFortyBitsAndAKeyThirty) {
   EXPECT_LT(keys / count, 24.0) << "115 in full";
 }
 
+/// Bodies that hit each other at one instant, after which their momentum is as before.
+struct Collision {
+  Impact first;
+  TrajectoryBasis second;
+  Trajectory after;
+  Collision(Motions& motions, float first_mass, float second_mass) {
+    first.shape = {.drag = 0.25f, .mass = first_mass};
+    second.shape = {.kind = 1, .drag = 3.0f, .thrust = 4.9f, .mass = second_mass};
+    second.time = motions.between(1.0, 5000.0);
+    const double instant =
+        on_grid(trajectory_time_step, second.time - motions.between(0.001, 0.016));
+    for (Trajectory* former : {&first.former, &second.former})
+      *former = {.time = on_grid(trajectory_time_step, instant - motions.between(0.0, 0.9)),
+                 .position = motions.vector(trajectory_position_step, 10.0),
+                 .velocity = motions.vector(trajectory_velocity_step, 1.0)};
+    const Lead led = lead_of(first.former, first.shape, instant),
+               lead = lead_of(second.former, second.shape, instant);
+    const Vector2 impulse = motions.vector(trajectory_velocity_step, 1.0);
+    first.after = moved(instant, led, impulse / static_cast<double>(first_mass));
+    after = moved(instant, lead, -impulse / static_cast<double>(second_mass));
+    second.impact = &first;
+  }
+  static Trajectory moved(double instant, const Lead& lead, const Vector2& gain) {
+    const auto rounded = [](double step, const Vector2& value) {
+      return Vector2(on_grid(step, value.x()), on_grid(step, value.y()));
+    };
+    return {.time = instant,
+            .position = rounded(trajectory_position_step, lead.position),
+            .velocity = rounded(trajectory_velocity_step, lead.velocity + gain)};
+  }
+};
+
+/// The bits that it takes, or nothing if it cannot be a companion.
+std::optional<std::size_t> travels(const TrajectoryBasis& basis, const Trajectory& t) {
+  std::vector<std::byte> bits;
+  std::size_t size = 0;
+  {
+    rti::BitWriter writer(bits);
+    const bool is_written = write_residual(writer, basis, t);
+    size = writer.at();
+    if (!is_written) {
+      EXPECT_EQ(size, 0u);
+      return std::nullopt;
+    }
+  }
+  rti::BitReader reader(bits);
+  Trajectory read;
+  EXPECT_TRUE(read_residual(reader, basis, read));
+  EXPECT_EQ(reader.at(), size);
+  EXPECT_EQ(read, t);
+  return size;
+}
+
+TEST(TrajectoryResidual, CompanionTakesAQuarterOfAHitForMomentumIsKept) {
+  Motions motions(8);
+  double size = 0.0;
+  constexpr int count = 3000;
+  for (int i = 0; i < count; ++i) {
+    const Collision collision(motions, 0.5f, i % 2 == 0 ? 0.5f : 0.8f);
+    size += static_cast<double>(travels(collision.second, collision.after).value());
+  }
+  EXPECT_LT(size / count, 12.0) << "40 alone";
+}
+
+TEST(TrajectoryResidual, CompanionSharesInstantAndMomentumOrIsNone) {
+  Motions motions(9);
+  const auto refuses = [&motions](auto change) {
+    Collision collision(motions, 0.5f, 0.5f);
+    change(collision);
+    return !travels(collision.second, collision.after);
+  };
+  EXPECT_FALSE(refuses([](Collision&) {}));
+  EXPECT_TRUE(refuses([](Collision& each) { each.after.time -= trajectory_time_step; }));
+  EXPECT_TRUE(refuses([](Collision& each) { each.after.velocity.x() += 0.25; })) << "a third body";
+  EXPECT_TRUE(refuses([](Collision& each) { each.second.shape.mass = 0.0f; })) << "a post";
+  EXPECT_TRUE(refuses([](Collision& each) { each.first.shape.mass = 0.0f; }));
+  EXPECT_TRUE(refuses([](Collision& each) { each.first.after.time = 1e13; }));
+  EXPECT_TRUE(refuses([](Collision& each) { each.after = {.position = each.after.position}; }));
+  // What a stranger sends in such a place is refused, too.
+  for (int i = 0; i < 2000; ++i) {
+    Collision collision(motions, i % 3 == 0 ? 0.0f : 1e-38f, i % 3 == 1 ? 0.0f : 1e38f);
+    const bool is_post = i % 3 != 2;
+    std::vector<std::byte> noise(12);
+    for (std::byte& each : noise) each = static_cast<std::byte>(motions.below(256));
+    rti::BitReader reader(noise);
+    Trajectory read;
+    const bool is_read = read_residual(reader, collision.second, read);
+    EXPECT_FALSE(is_read && is_post);
+    EXPECT_TRUE(!is_read || (read.position.allFinite() && read.velocity.allFinite()));
+  }
+}
+
 TEST(TrajectoryResidual, LeadIsTheClosedForm) {
   Motions motions(7);
   for (int i = 0; i < 20000; ++i) {

@@ -136,7 +136,7 @@ def held_keys(reader, _):
 def shape(reader, _):
     """rink-shape-1."""
     kind_and_team, numbers = reader.take(2), b""
-    for _ in range(5):
+    for _ in range(6):
         first = reader.varint()
         if first == 1:
             numbers += reader.take(4)
@@ -171,7 +171,7 @@ def slide(t, drag, k):
 def lead(former, shape, instant):
     """Where a trajectory leads: place and velocity."""
     time, x, y, vx, vy, ax, ay, *drags = struct.unpack("<9d", former)
-    own, friction, _ = struct.unpack("<fff", shape[10:])
+    own, friction = struct.unpack("<ff", shape[10:18])
     if (vx, vy, ax, ay) == (0, 0, 0, 0):
         return (x, y), (0.0, 0.0)
     t = instant - time if instant > time else 0.0
@@ -202,25 +202,33 @@ def steps(led, former):
     return [round(value * 2048) if abs(value * 2048) < 2**40 else round(before * 2048) for value, before in zip(led, former)]
 
 
-def trajectory_residual(bits, former, shape, stamp):
-    (thrust,), values = struct.unpack("<f", shape[18:]), struct.unpack("<9d", former)
+def trajectory_residual(bits, former, shape, stamp, other):
+    """Of a companion `other` has the former trajectory, the shape and the trajectory of the one it follows."""
+    (thrust, mass), values = struct.unpack("<ff", shape[18:]), struct.unpack("<9d", former)
     acceleration, drag, is_resting = values[5:7], values[7:], False
     if not bits.number(1):
         acceleration, drag, is_resting = (0.0, 0.0), (-1.0, -1.0), not bits.number(1)
         if not is_resting:
             acceleration = [(0.0, thrust, -thrust)[bits.number(2)] for _ in "xy"]
-    late = 0 if is_resting else golomb(bits, 4)
+    late = 0 if is_resting or other else golomb(bits, 4)
     instant = (math.floor(seconds(stamp) * 1024) - late) / 1024
+    if other:
+        (its_mass,), its = struct.unpack("<f", other[1][22:]), struct.unpack("<9d", other[2])
+        assert mass > 0 and its_mass > 0 and not is_resting and its[0] <= seconds(stamp)
+        instant = its[0]
     place, velocity = lead(former, shape, instant)
+    if other:
+        lost = [led - now for led, now in zip(lead(other[0], other[1], instant)[1], its[3:5])]
+        velocity = [led + its_mass / mass * each for led, each in zip(velocity, lost)]
     place = [(count + signed(golomb(bits, 1))) / 2048 for count in steps(place, values[1:3])]
     if is_resting:
         return struct.pack("<9d", 0.0, *place, 0.0, 0.0, 0.0, 0.0, -1.0, -1.0)
-    order = (1, 6, 9, 11)[bits.number(2)]
+    order = 1 if other else (1, 6, 9, 11)[bits.number(2)]
     velocity = [(count + signed(golomb(bits, order))) / 2048 for count in steps(velocity, values[3:5])]
     return struct.pack("<9d", instant, *place, *velocity, *acceleration, *drag)
 
 
-def input_residual(bits, former, _, __):
+def input_residual(bits, former, _, __, ___):
     count, held = struct.unpack("<IB", former)
     count = (count + (1 if bits.number(1) else golomb(bits, 0))) % 2**32
     held = held ^ 1 << bits.number(2) if bits.number(1) else bits.number(4)
@@ -234,20 +242,35 @@ def residuals(reader, new_bits):
     number, size = reader.varint(), reader.varint()
     bits, members = new_bits(reader.take(size)), reader.model.objects[number][1]
     may = [k for k, (_, data_type) in enumerate(members) if data_type in dict(reader.model.codecs) and data_type in RESIDUALS]
-    order, chosen, handle, lines = bits.number(4), may[-1:], None, []
+    order, way_order, named, handle, lines = bits.number(4), bits.number(4), [], None, []
+
+    def record(handle, companion):
+        nonlocal named
+        chosen = may[-1:]
+        if not bits.number(1):
+            if not bits.number(1):
+                named = [k for k in may if bits.number(1)]
+            chosen = named
+        assert chosen
+        former, values, change = reader.connection.former[handle], b"", {}
+        for data_type in (members[k][1] for k in chosen):
+            before = former[data_type]
+            former[data_type] = RESIDUALS[data_type](bits, before, former.get("Shape"), reader.stamp, (companion or {}).get(data_type))
+            change[data_type] = before, former.get("Shape"), former[data_type]
+            values += former[data_type]
+        names = "+".join(members[k][0] for k in chosen)
+        lines.append("reflect %d %s %s %s %s" % (handle, reader.object_class(number), names, reader.stamp, values.hex()))
+        return change
+
     while True:
         if handle is None:
             handle = golomb(bits, 0) << 18 | golomb(bits, 10)
         else:
             handle += 1 + golomb(bits, order)
-        if not bits.number(1):
-            chosen = [k for k in may if bits.number(1)]
-        former, values = reader.connection.former[handle], b""
-        for _, data_type in (members[k] for k in chosen):
-            former[data_type] = RESIDUALS[data_type](bits, former[data_type], former.get("Shape"), reader.stamp)
-            values += former[data_type]
-        names = "+".join(members[k][0] for k in chosen)
-        lines.append("reflect %d %s %s %s %s" % (handle, reader.object_class(number), names, reader.stamp, values.hex()))
+        has_companion = bits.number(1)
+        change = record(handle, None)
+        if has_companion:
+            record(handle + signed(golomb(bits, way_order) + 1), change)
         left = new_bits(bits.data)
         left.at = bits.at
         if 8 * size - bits.at < 8 and left.number(8 * size - bits.at) == 0:
