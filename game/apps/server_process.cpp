@@ -61,7 +61,10 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
       stagger_(clients_.add<rti::Stagger>(options.spread / options.rate_hz, now_s)),
       server_(serving_.server()),
       records_(options.record),
-      shared_(played.shared) {
+      shared_(played.shared),
+      output_rates_(update_rate_of(options.output_rate_hz, options.rate_hz)) {
+  if (!needs_every_tick(options))
+    overload_.emplace(OverloadControl::Settings{.tick_s = 1.0 / options.rate_hz});
   add_gate(clients_,
            {.key_file = options.key_file,
             .federation = federation,
@@ -144,8 +147,18 @@ bool ServerProcess::start() {
   return server_.is_started() && (!shared_ || shared_->may_begin());
 }
 
+/// The tick that comes next instead of one that is too far behind; its clients are told of all
+/// that happened meanwhile.
+std::uint64_t ServerProcess::leave_out(std::uint64_t number, std::uint64_t last, bool is_counted) {
+  if (!overload_) return number;
+  const double due_s = start_s_ + static_cast<double>(number) / options_.rate_hz;
+  const std::uint64_t left_out = std::min(overload_->ticks_left_out(due_s, now_s()), last - number);
+  if (is_counted) costs_.ticks_left_out += left_out;
+  return number + left_out;
+}
+
 void ServerProcess::tick(std::uint64_t number, bool is_counted) {
-  const double period_s = 1.0 / options_.rate_hz,
+  const double begin_s = now_s(), period_s = 1.0 / options_.rate_hz,
                elapsed_s = static_cast<double>(number) * period_s;
   const double simulated_s =
       options_.hosted.empty() ? goal(number) : server_.follow_match(elapsed_s);
@@ -155,13 +168,27 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   fall_behind(elapsed_s, simulated_s);
   keep_records();
   report_flood();
+  const bool is_told_as_asked = output_rates_.divisor() == 1;
+  follow_load(due_s, begin_s);
   if (!is_counted) return;
   costs_.physics_s += tick.physics_s;
   costs_.filter_s += tick.filter_s;
   costs_.send_s += tick.send_s;
   costs_.send_max_s = std::max(costs_.send_max_s, tick.send_s);
   ++costs_.ticks;
-  if (now_s() <= due_s + period_s) ++costs_.ticks_on_time;
+  if (is_told_as_asked && now_s() <= due_s + period_s) ++costs_.ticks_on_time;
+}
+
+/// Under overload all clients are told less often, so that the game goes on and nobody is lost.
+void ServerProcess::follow_load(double due_s, double begin_s) {
+  if (!overload_) return;
+  output_rates_.add_newcomers(server_, serving_.execution());
+  if (!overload_->ticked(due_s, begin_s, now_s())) return;
+  const std::uint32_t before = output_rates_.divisor(), now = overload_->divisor();
+  output_rates_.set_divisor(server_, serving_.execution(), now);
+  if (before < now)
+    warn("ticks run late with ", server_.seats().player_count(),
+         " clients: each is told in one of ", now, " of its turns");
 }
 
 /// Under time management ticks keep to their grid whatever has been put off. Nodes play a window
@@ -204,12 +231,13 @@ void ServerProcess::run() {
   bool is_measuring = false;
   for (std::uint64_t number = 0; number <= last && !is_interrupted && server_.error().empty();
        ++number) {
-    const double simulated_s = static_cast<double>(number) / options_.rate_hz;
     if (options_.pace == "synchronous") await_turns();
-    else exchange_until(start_s_ + simulated_s);
+    else exchange_until(start_s_ + static_cast<double>(number) / options_.rate_hz);
     if (is_interrupted || !server_.error().empty() || has_ended()) break;
-    if (!is_measuring && simulated_s >= options_.warm_up_s) {
+    number = leave_out(number, last, is_measuring);
+    if (!is_measuring && static_cast<double>(number) / options_.rate_hz >= options_.warm_up_s) {
       is_measuring = true;
+      costs_.game_from_s = server_.game().now();
       costs_.from_s = now_s();
       stagger_.forget_bursts();
       costs_.begin = counts();
@@ -232,6 +260,7 @@ void ServerProcess::show_rest() {
 void ServerProcess::end_span() {
   costs_.has_ended = true;
   costs_.span_s = now_s() - costs_.from_s;
+  costs_.game_span_s = server_.game().now() - costs_.game_from_s;
   costs_.end = counts();
 }
 
@@ -299,31 +328,37 @@ Json ServerProcess::report() const {
   const TickBudgetCounters& budget = server_.budget().counters();
   if (why_invalid.empty() && budget.ticks_cut_short > 0)
     why_invalid = "the physics exceeded --budget: " + text_of(budget);
-  Json report{{report::mode, "client-server"},
-              {report::scheme, options_.scheme},
-              {report::policy, options_.policy},
-              {report::threshold, options_.threshold},
-              {report::clients, options_.clients},
-              {report::seed, options_.seed},
-              {report::tick_rate_hz, options_.rate_hz},
-              {report::output_rate_hz, options_.output_rate_hz},
-              {"pace", options_.pace},
-              {"time_managed", options_.is_time_managed},
-              {report::ticks, costs_.ticks},
-              {report::ticks_on_time_fraction, static_cast<double>(costs_.ticks_on_time) / ticks},
-              {report::physics_us_per_tick, 1e6 * costs_.physics_s / ticks},
-              {report::filter_us_per_tick, 1e6 * costs_.filter_s / ticks},
-              {report::send_us_per_tick, 1e6 * costs_.send_s / ticks},
-              {"send_us_max", 1e6 * costs_.send_max_s},
-              {"spread", options_.spread},
-              {"burst_bytes_max", stagger_.burst_bytes_max()},
-              {report::server_rss_bytes, resident_bytes()},
-              {report::evidence_bytes, serving_.evidence_bytes()},
-              {"ticks_cut_short", budget.ticks_cut_short},
-              {"behind_s", budget.wanted_s - budget.played_s},
-              {report::measured_s, costs_.span_s},
-              {report::valid, why_invalid.empty()},
-              {report::why_invalid, why_invalid}};
+  Json report{
+      {report::mode, "client-server"},
+      {report::scheme, options_.scheme},
+      {report::policy, options_.policy},
+      {report::threshold, options_.threshold},
+      {report::clients, options_.clients},
+      {report::seed, options_.seed},
+      {report::tick_rate_hz, options_.rate_hz},
+      {report::output_rate_hz, options_.output_rate_hz},
+      {"pace", options_.pace},
+      {"time_managed", options_.is_time_managed},
+      {report::ticks, costs_.ticks},
+      {report::ticks_on_time_fraction, static_cast<double>(costs_.ticks_on_time) /
+                                           (ticks + static_cast<double>(costs_.ticks_left_out))},
+      {"ticks_left_out", costs_.ticks_left_out},
+      {"output_rate_divisor_max", overload_ ? overload_->divisor_reached() : 1},
+      {"output_rate_changes", overload_ ? overload_->changes() : 0},
+      {"game_pace", costs_.span_s > 0.0 ? costs_.game_span_s / costs_.span_s : 0.0},
+      {report::physics_us_per_tick, 1e6 * costs_.physics_s / ticks},
+      {report::filter_us_per_tick, 1e6 * costs_.filter_s / ticks},
+      {report::send_us_per_tick, 1e6 * costs_.send_s / ticks},
+      {"send_us_max", 1e6 * costs_.send_max_s},
+      {"spread", options_.spread},
+      {"burst_bytes_max", stagger_.burst_bytes_max()},
+      {report::server_rss_bytes, resident_bytes()},
+      {report::evidence_bytes, serving_.evidence_bytes()},
+      {"ticks_cut_short", budget.ticks_cut_short},
+      {"behind_s", budget.wanted_s - budget.played_s},
+      {report::measured_s, costs_.span_s},
+      {report::valid, why_invalid.empty()},
+      {report::why_invalid, why_invalid}};
   report.update(counted_report(serving_, costs_.begin, costs_.end));
   return report;
 }

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "game/control/match_records.h"
+#include "game/net/server/overload/output_rates.h"
+#include "game/net/server/overload/overload_control.h"
 #include "game/net/server/serve_game.h"
 #include "game/net/server/serve_options.h"
 #include "game/net/server/serve_report.h"
@@ -20,10 +22,11 @@ namespace rink::game {
 
 /// The costs of the run, summed over the measured ticks.
 struct Costs {
-  std::uint64_t ticks = 0, ticks_on_time = 0;
+  std::uint64_t ticks = 0, ticks_on_time = 0, ticks_left_out = 0;
   double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, send_max_s = 0.0;
   double from_s = 0.0,
          span_s = 0.0;  ///< the measured span: when it began on the clock, and its length
+  double game_from_s = 0.0, game_span_s = 0.0;  ///< the same of simulated time
   bool has_ended = false;
   ServingCounts begin, end;
 };
@@ -63,7 +66,9 @@ class ServerProcess {
   void exchange_until(double until_s);
   void await_turns();
   void await_window(double due_s, double until);
+  std::uint64_t leave_out(std::uint64_t number, std::uint64_t last, bool is_counted);
   void tick(std::uint64_t number, bool is_counted);
+  void follow_load(double due_s, double begin_s);
   void end_span();
   ServingCounts counts() const;
   double goal(std::uint64_t number) const;
@@ -87,6 +92,8 @@ class ServerProcess {
   std::uint64_t ticks_put_off_ = 0;  ///< under time management: it, in ticks
   mutable double latest_s_ = 0.0;    ///< that simulated_now() has returned
   bool is_flood_reported_ = false;
+  std::optional<OverloadControl> overload_;  ///< unless clients need every tick
+  OutputRates output_rates_;
   Costs costs_;
 };
 

@@ -133,7 +133,8 @@ const Names divisions{"im/matching/index",       "rti/transport/tcp",
                       "loadgen/run/nodes",       "loadgen/run/peers",
                       "loadgen/run/saturation",  "loadgen/measure/statistics",
                       "loadgen/measure/tables",  "loadgen/measure/truth",
-                      "loadgen/report/sections", "loadgen/report/plots"};
+                      "loadgen/report/sections", "loadgen/report/plots",
+                      "game/net/server/overload"};
 
 const Names network_headers{"asio",    "sys/socket.h", "netinet/", "arpa/inet.h",
                             "netdb.h", "sys/epoll.h",  "mpi.h"};

@@ -106,8 +106,7 @@ void require_output_rate(const ServeOptions& options) {
          << "; allowed is from 0.1 to that, and 0 for each tick";
     throw std::runtime_error(text.str());
   }
-  if (options.policy == exact_policy || !options.hosted.empty() || is_node(options) ||
-      options.pace != "realtime" || options.is_time_managed)
+  if (needs_every_tick(options))
     throw std::runtime_error(
         "--output-rate: --policy exact, a hosted match, --nodes, --join, --transport mpi, --pace "
         "synchronous and --time-management need every tick to be told and can't be given with it");
@@ -124,6 +123,11 @@ void require_beginning(const ServeOptions& options) {
 }
 
 }  // namespace
+
+bool needs_every_tick(const ServeOptions& options) {
+  return options.policy == exact_policy || !options.hosted.empty() || is_node(options) ||
+         options.pace != "realtime" || options.is_time_managed;
+}
 
 rti::FederationFile follow_federation_file(ServeOptions& options) {
   if (options.federation_file.empty())

@@ -19,6 +19,9 @@ rti::FederationFile follow_federation_file(ServeOptions& options);
 rti::FederationSettings federation_of(const ServeOptions& options, const Scene& scene,
                                       const std::string& federation, im::Worker* worker);
 
+/// Whether clients have to be told of every tick, none of which may be left out.
+bool needs_every_tick(const ServeOptions& options);
+
 /// Throws std::runtime_error if the options cannot be satisfied, or a file for results cannot be
 /// written.
 void require_room(const ServeOptions& options, const Scene& scene);

@@ -105,10 +105,20 @@ TEST_F(VirtualRunTest, EndsInTheStateOfTheSameCellOverRealSockets) {
        std::map<const char*, nlohmann::json>{{"server", virtual_server}, {"bots", virtual_bots}}) {
     const nlohmann::json over_sockets = report(cell, who);
     // What their clocks, pace and memory say of themselves.
-    const std::set<std::string> of_processes{
-        "behind_s",        "cpu_share",       "evidence_bytes", "histogram_ns_per_record",
-        "ticks_cut_short", "burst_bytes_max", "pace",           "send_us_max",
-        "spread",          "time_managed"};
+    const std::set<std::string> of_processes{"behind_s",
+                                             "cpu_share",
+                                             "evidence_bytes",
+                                             "histogram_ns_per_record",
+                                             "ticks_cut_short",
+                                             "burst_bytes_max",
+                                             "pace",
+                                             "send_us_max",
+                                             "spread",
+                                             "time_managed",
+                                             "ticks_left_out",
+                                             "game_pace",
+                                             "output_rate_changes",
+                                             "output_rate_divisor_max"};
     for (const auto& [key, value] : over_sockets.items())
       EXPECT_TRUE(of_processes.contains(key) || mine.contains(key))
           << "the " << who << "' report over sockets has " << key;
