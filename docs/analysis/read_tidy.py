@@ -14,7 +14,7 @@ import matplotlib.pyplot as plot
 import pandas
 
 CELL = ["part", "mode", "scheme", "policy", "clients", "pucks", "bats", "server_cores", "view_fraction", "view_margin",
-        "sweep_ticks", "cell_size", "tick_rate_hz", "threshold", "extrapolate", "nodes"]
+        "sweep_ticks", "cell_size", "tick_rate_hz", "threshold", "extrapolate", "nodes", "output_rate_hz"]
 BYTES, ERROR = "down_bytes_per_client_per_s", "displayed_error_mm_rms"
 MARKERS, LABELS_A_COLUMN = "osD^vP*X", 24
 FRACTIONS = ("_fraction", "_precision", "_recall", "_jain", "_share")

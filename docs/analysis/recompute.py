@@ -21,7 +21,7 @@ ROUNDING_US = 0.5e-3  # evidence has the cost of each tick to the nanosecond, wh
 HEADERS = 66  # bytes: Ethernet 14, IPv4 20, TCP with timestamps 32
 PARAMETERS = (("view_fraction", "view", "0.05"), ("view_margin", "margin", "0.3"), ("sweep_ticks", "sweep", "0"),
               ("cell_size", "cell", "0"), ("tick_rate_hz", "rate", "30"), ("threshold", "threshold", "0.005"),
-              ("extrapolate", "extrapolate", "1"), ("nodes", "nodes", "1"))  # column, what file names call it, what they leave out
+              ("extrapolate", "extrapolate", "1"), ("nodes", "nodes", "1"), ("output_rate_hz", "told", "0"))  # column, what file names call it, what they leave out
 KEYS = ("part", "mode", "scheme", "policy", "clients", "pucks", "bats", "server_cores") + tuple(p[0] for p in PARAMETERS) + ("seed",)
 COSTS = ("physics_us_per_tick", "filter_us_per_tick", "send_us_per_tick")
 OF_TRUTH = ("filter_precision", "filter_recall", "delivered_", "interactions", "missed_", "late_entry_", "position_error_", "displayed_error_", "wasted_")

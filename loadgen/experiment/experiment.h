@@ -68,10 +68,12 @@ struct Parameters {
   double cell_size = 0.0;  ///< side of a scheme's cells [m]; 0 lets the scheme choose
   double tick_rate_hz =
       30.0;  ///< ticks of the server per second, 1 to 1000: decisions are as old as their inverse
-  double threshold = 0.005;  ///< [m] of the dead-reckoning policies (game::UpdatePolicySettings)
-  bool extrapolates = true;  ///< whether clients extrapolate entities of which they receive
-                             ///< positions; without it `periodic` is the paper's
-  std::uint32_t nodes = 1;   ///< servers that share the simulation (game/node), 1 to 64
+  double threshold = 0.005;     ///< [m] of the dead-reckoning policies (game::UpdatePolicySettings)
+  bool extrapolates = true;     ///< whether clients extrapolate entities of which they receive
+                                ///< positions; without it `periodic` is the paper's
+  std::uint32_t nodes = 1;      ///< servers that share the simulation (game/node), 1 to 64
+  double output_rate_hz = 0.0;  ///< times a second that a client is told, at most the ticks; 0: at
+                                ///< each tick (rti/update_rate.h)
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
@@ -112,8 +114,8 @@ struct Experiment {
   double warm_up_s = 0.5;   ///< [s] played but not measured; 0 to 600
   std::vector<double> view_fractions{0.05}, view_margins{0.3}, sweep_ticks{0.0}, cell_sizes{0.0},
       tick_rates_hz{30.0};  ///< see Parameters, and parameter.h
-  std::vector<double> thresholds{0.005}, extrapolates{1.0},
-      nodes{1.0};  ///< see Parameters, and parameter.h
+  std::vector<double> thresholds{0.005}, extrapolates{1.0}, nodes{1.0},
+      output_rates_hz{0.0};  ///< see Parameters, and parameter.h
   std::vector<std::uint32_t> pucks{0},
       bats{0};             ///< number on the scene's own field; 0: the scene's number
   double view_area = 0.0;  ///< of a client's view [m^2], for any field; 0: view_fraction decides

@@ -266,6 +266,20 @@ void expect_what_nodes_can(const Experiment& experiment, const std::string& file
            ": expected a client for each node at least");
 }
 
+/// Refuses rates at which no client can be told, before cells run that would fail.
+void expect_what_can_be_told(const Experiment& experiment, const std::string& file) {
+  const double most = *std::ranges::max_element(experiment.output_rates_hz);
+  if (most == 0.0) return;
+  const auto refuse = [&](const std::string& what) {
+    throw ExperimentError(file + ": output_rate_hz = " + shortest(most) + " " + what);
+  };
+  if (const double fewest = *std::ranges::min_element(experiment.tick_rates_hz); most > fewest)
+    refuse("is more than tick_rate_hz = " + shortest(fewest) +
+           ": expected as many ticks a second at least, or 0, by which each is told");
+  if (*std::ranges::max_element(experiment.nodes) > 1.0)
+    refuse("is of one server: expected nodes = 1");
+}
+
 /// A saved game is one of keys that are known beforehand.
 void expect_what_can_start_warm(const Experiment& experiment, const std::string& file) {
   if (experiment.start_s == 0.0 || experiment.keys == KeySource::replay ||
@@ -322,6 +336,7 @@ Experiment part_in(ExperimentReader& reader, const Experiment& whole,
   expect_use_of_relevance(reader, result, file.string());
   expect_what_peers_can(result, file.string());
   expect_what_nodes_can(result, file.string());
+  expect_what_can_be_told(result, file.string());
   expect_use_of_always(result, file.string());
   expect_what_can_start_warm(result, file.string());
   return result;
@@ -358,6 +373,7 @@ Experiment parse_experiment(std::string_view text, const std::filesystem::path& 
   if (!result.parts.empty()) return result;
   expect_what_peers_can(result, file.string());
   expect_what_nodes_can(result, file.string());
+  expect_what_can_be_told(result, file.string());
   expect_use_of_always(result, file.string());
   expect_what_can_start_warm(result, file.string());
   return result;

@@ -21,6 +21,9 @@ bool has_cells(const Cell& cell) { return im::takes_cell_size(cell.scheme); }
 bool reckons(const Cell& cell) { return game::takes_threshold(cell.policy); }
 bool tells_positions(const Cell& cell) { return cell.policy == "periodic"; }
 bool has_server(const Cell& cell) { return cell.mode != peer_mode; }
+bool tells_at_a_rate(const Cell& cell) {
+  return has_server(cell) && cell.policy != game::exact_policy;
+}
 static_assert(game::peers_max == 64, "as the words for `nodes` say");
 
 constexpr std::array kinds{
@@ -66,7 +69,13 @@ constexpr std::array kinds{
                   [](double v) { return v >= 1.0 && v <= game::peers_max; }, true,
                   [](const Parameters& p) { return static_cast<double>(p.nodes); },
                   [](Parameters& p, double v) { p.nodes = static_cast<std::uint32_t>(v); },
-                  &Experiment::nodes, has_server, "nodes", "", " nodes", "nodes", "nodes", 1.0}};
+                  &Experiment::nodes, has_server, "nodes", "", " nodes", "nodes", "nodes", 1.0},
+    ParameterKind{"output_rate_hz", "numbers from 0.1 to 1000, or 0 (each tick is told)",
+                  [](double v) { return v == 0.0 || (v >= 0.1 && v <= 1000.0); }, false,
+                  [](const Parameters& p) { return p.output_rate_hz; },
+                  [](Parameters& p, double v) { p.output_rate_hz = v; },
+                  &Experiment::output_rates_hz, tells_at_a_rate, "told", "told at ", " Hz",
+                  "times a second that a client is told", "told, Hz", 1.0}};
 
 }  // namespace
 

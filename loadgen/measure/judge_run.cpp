@@ -264,6 +264,9 @@ void check(const RunRecord& record, ReportReader& server, ReportReader& bots,
   expect_equal("the bots' clients", bots(report::clients), record.cell.clients, complaints);
   expect_equal("the server's tick_rate_hz", server(report::tick_rate_hz),
                record.cell.parameters.tick_rate_hz, complaints);
+  if (record.cell.parameters.output_rate_hz > 0.0)
+    expect_equal("the server's output_rate_hz", server(report::output_rate_hz),
+                 record.cell.parameters.output_rate_hz, complaints);
   expect_none("clients lost by the server", server(report::lost_federates), complaints);
   expect_none("connections dropped by the server", server(report::dropped_connections), complaints);
   expect_none("clients lost by the bots", bots(report::federates_lost), complaints);

@@ -132,6 +132,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("standby_bytes_per_client_per_s", run.traffic.standby);
   line.field("busiest_link_bytes_per_s", run.nodes.busiest_link_bytes_per_s);
   line.field("nodes", run.cell.parameters.nodes);
+  line.field("output_rate_hz", run.cell.parameters.output_rate_hz);
   line.field("between_nodes_bytes_per_s", run.nodes.between_bytes_per_s);
 }
 

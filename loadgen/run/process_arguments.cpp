@@ -42,6 +42,8 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   add("--policy", cell.policy);
   if (game::takes_threshold(cell.policy)) add("--threshold", decimal(cell.parameters.threshold));
   add("--rate", decimal(cell.parameters.tick_rate_hz));
+  if (cell.parameters.output_rate_hz > 0.0)
+    add("--output-rate", decimal(cell.parameters.output_rate_hz));
   add("--duration", decimal(experiment.warm_up_s + experiment.duration_s));
   add("--warm-up", decimal(experiment.warm_up_s));
   add("--clients", std::to_string(cell.clients));

@@ -58,6 +58,7 @@ class VirtualRun {
   void end(Json& server_report);
 
  private:
+  rti::FederationSettings federation_settings(const PlannedGame& game) const;
   game::ServerSettings server_settings(const PlannedGame& game) const;
   static BotCrowdSettings crowd_settings(const Experiment& experiment, const Cell& cell);
 
@@ -102,6 +103,14 @@ std::vector<std::uint8_t> state_in(const std::string& file, const game::Scene& s
 
 }  // namespace
 
+rti::FederationSettings VirtualRun::federation_settings(const PlannedGame& game) const {
+  rti::FederationSettings settings =
+      game::federation_settings(game.scene, cell_.scheme, cell_.parameters.cell_size);
+  settings.update_rate =
+      game::update_rate_of(cell_.parameters.output_rate_hz, cell_.parameters.tick_rate_hz);
+  return settings;
+}
+
 game::ServerSettings VirtualRun::server_settings(const PlannedGame& game) const {
   game::ServerSettings settings{.policy = cell_.policy,
                                 .threshold = cell_.parameters.threshold,
@@ -145,8 +154,7 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
       state_(state_file_.empty() ? std::vector<std::uint8_t>() : state_in(state_file_, game.scene)),
       model_(network_conditions(experiment, cell)),
       network_(model_),
-      serving_(fom, game.scene, server_settings(game),
-               game::federation_settings(game.scene, cell.scheme, cell.parameters.cell_size),
+      serving_(fom, game.scene, server_settings(game), federation_settings(game),
                {[this] { return now_s(); }, [this] { return simulated_now(); }}),
       server_(serving_.server()),
       crowd_(fom, bots_end_, crowd_settings(experiment, cell), game.keys,
@@ -277,6 +285,7 @@ Json VirtualRun::server_report() const {
               {game::report::clients, cell_.clients},
               {game::report::seed, cell_.seed},
               {game::report::tick_rate_hz, cell_.parameters.tick_rate_hz},
+              {game::report::output_rate_hz, cell_.parameters.output_rate_hz},
               {game::report::ticks, ticks_},
               {game::report::ticks_on_time_fraction, nullptr},
               {game::report::physics_us_per_tick, nullptr},

@@ -91,7 +91,7 @@ void ShippedExperiment::run_least_version_of(Experiment experiment) {
   experiment.nodes = {1.0};  // several do not play in virtual time
   experiment.design = Design::matrix;
   for (auto* list : {&experiment.view_fractions, &experiment.view_margins, &experiment.sweep_ticks,
-                     &experiment.cell_sizes, &experiment.thresholds})
+                     &experiment.cell_sizes, &experiment.thresholds, &experiment.output_rates_hz})
     *list = {list->back()};
   experiment.policies = {experiment.policies.back()};
   RunnerSettings settings;

@@ -73,7 +73,7 @@ TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
   EXPECT_THAT(rows[0], ElementsAre("part", "mode", "scheme", "policy", "clients", "pucks", "bats",
                                    "server_cores", "view_fraction", "view_margin", "sweep_ticks",
                                    "cell_size", "tick_rate_hz", "threshold", "extrapolate", "nodes",
-                                   "seed", "valid", "figure", "unit", "value"));
+                                   "output_rate_hz", "seed", "valid", "figure", "unit", "value"));
   std::size_t at = 1;
   for (const RunRecord& run : runs)
     for (const Figure& figure : figures()) {
@@ -84,10 +84,10 @@ TEST(Tidy, EveryFigureOfEveryRunIsALineWithTheValueThatTheRunHas) {
       EXPECT_THAT((std::vector(row.begin(), row.begin() + 4)),
                   ElementsAre("late", "client-server", run.cell.scheme, "periodic"));
       EXPECT_EQ(row[9], "0.25");
-      EXPECT_EQ(row[16], std::to_string(run.cell.seed));
-      EXPECT_EQ(row[17], run.valid ? "true" : "false");
-      EXPECT_EQ(row[18], figure.name);
-      EXPECT_EQ(std::stod(row[20]), *value) << figure.name << " must come back as the very number";
+      EXPECT_EQ(row[17], std::to_string(run.cell.seed));
+      EXPECT_EQ(row[18], run.valid ? "true" : "false");
+      EXPECT_EQ(row[19], figure.name);
+      EXPECT_EQ(std::stod(row[21]), *value) << figure.name << " must come back as the very number";
     }
 }
 
