@@ -5,16 +5,9 @@
 #include <span>
 #include <string>
 
-namespace rink::loadgen {
+#include "loadgen/report/definition.h"
 
-/// The definition of one key of a line of runs.jsonl. Figures of a sample, such as update_age_ms,
-/// have a member for each percentile.
-struct Definition {
-  const char* field;    ///< the key
-  const char* unit;     ///< empty: a name or a truth value; "1": a count or a fraction
-  const char* alias;    ///< the name in the literature where that differs; may be empty
-  const char* meaning;  ///< a sentence without its stop
-};
+namespace rink::loadgen {
 
 /// Definitions of the keys that name a cell, every parameter among them.
 std::span<const Definition> cell_definitions();

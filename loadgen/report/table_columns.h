@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "loadgen/report/dictionary.h"
+#include "loadgen/report/definition.h"
 
 namespace rink::loadgen {
 

@@ -7,7 +7,7 @@ namespace rink::game {
 
 /// Follows the ticks of a server by the clock that it is handed. Where they run late and are not
 /// catching up, each client is told in one of `divisor()` of its turns; where there is time again,
-/// in more of them (docs/scaling.md, "Overload").
+/// in more of them (docs/rti.md, "Overload").
 class OverloadControl {
  public:
   struct Settings {
