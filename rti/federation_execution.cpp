@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "rti/federation/federation_parts.h"
@@ -12,9 +13,17 @@ namespace rink::rti {
 
 namespace {
 
+void require_valid(UpdateRate rate) {
+  if (!rate.is_valid())
+    throw std::invalid_argument("update rate: " + std::to_string(rate.turns) + " turns in " +
+                                std::to_string(rate.matches) +
+                                " matches; expected at least 1 turn in at least as many matches");
+}
+
 std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
   if (const auto complaint = im::complaint_about(settings.filter, settings.filter_settings))
     throw std::invalid_argument("filter '" + settings.filter + "': " + *complaint);
+  require_valid(settings.update_rate);
   auto filter = im::make_filter(settings.filter, settings.filter_settings);
   filter->share_with(settings.match_worker);
   return filter;
@@ -120,7 +129,7 @@ void FederationExecution::send_host_message(FederateHandle federate, Bytes conte
 }
 
 void FederationExecution::set_update_rate(FederateHandle federate, UpdateRate rate) {
-  assert(rate.is_valid());
+  require_valid(rate);
   if (const auto slot = parts_->ground.federates.joined(federate))
     parts_->set_update_rate(*slot, rate);
 }

@@ -86,8 +86,8 @@ class FederationExecution final : public CentralComponent {
   /// else of the next flush; the RTI does not look into it. A federate that left is sent nothing.
   void send_host_message(FederateHandle federate, Bytes content);
   /// Changes of scope and values go to `federate` at this rate from now on, all else at once
-  /// (docs/rti.md, "Update rates"). `rate` must be valid (asserted). Not for federates that are
-  /// constrained by time, which never wait.
+  /// (docs/rti.md, "Update rates"). Throws std::invalid_argument if `rate` is not
+  /// valid. Not for federates that are constrained by time, which never wait.
   void set_update_rate(FederateHandle federate, UpdateRate rate);
   /// Updates of `object` with any of `attributes` go to `federate` at once, whatever its rate: one
   /// object each, its own. What does not exist is ignored.

@@ -12,7 +12,7 @@ namespace rink::rti {
 /// differs among federates. The number of matches between two turns is matches / turns, rounded up
 /// or down.
 struct UpdateRate {
-  /// Both at least 1 and `turns` at most `matches` (asserted where it is used).
+  /// Both at least 1 and `turns` at most `matches`; else std::invalid_argument is thrown.
   std::uint32_t turns = 1, matches = 1;
 
   bool is_every_match() const { return turns == matches; }

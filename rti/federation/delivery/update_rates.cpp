@@ -40,12 +40,22 @@ void UpdateRates::set_rate(std::uint32_t federate, UpdateRate rate) {
   ++limited_;
 }
 
+/// Groups of rates that no federate has any more are used again.
 void UpdateRates::add_groups(UpdateRate rate) {
+  const auto is_unused = [this](UpdateRate of) {
+    return std::ranges::none_of(
+        groups_, [of](const Group& each) { return each.rate == of && each.federates > 0; });
+  };
+  std::vector<Group*> free;
+  for (Group& each : groups_)
+    if (each.federates == 0 && is_unused(each.rate)) free.push_back(&each);
   const std::uint32_t phases = std::min(rate.matches, phase_max);
   for (std::uint32_t phase = 0; phase < phases; ++phase) {
-    Group& group = groups_.emplace_back();
+    Group& group = phase < free.size() ? *free[phase] : groups_.emplace_back();
     group.rate = rate;
     group.progress = static_cast<std::uint32_t>(std::uint64_t{rate.matches} * phase / phases);
+    group.turns = group.keyframes = 0;
+    group.is_due = false;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 #include "tests/rti/rig.h"
 
@@ -49,6 +50,28 @@ TEST(UpdateRates, TurnsComeEvenlyAndNeverDrift) {
         ASSERT_NEAR(due, federates * share, 1e-9) << "each match has its part";
       }
     }
+  }
+}
+
+TEST(UpdateRates, ThatKeepChangingTakeNoMoreRoom) {
+  UpdateRates rates;
+  rates.joined(0), rates.joined(1);
+  rates.set_rate(1, {1, 3});
+  for (std::uint32_t matches = 2; matches < 200; ++matches) {
+    rates.set_rate(0, {1, matches});
+    EXPECT_EQ(rates.groups()[rates.group_of(0)].rate, (UpdateRate{1, matches}));
+    EXPECT_EQ(rates.groups()[rates.group_of(1)].rate, (UpdateRate{1, 3}));
+    EXPECT_LE(rates.groups().size(), 3 + 2 * UpdateRates::phase_max);
+  }
+}
+
+TEST(UpdateRates, WithoutATurnOrWithMoreThanMatchesAreRefused) {
+  FederationExecution execution(harbour(), {});
+  for (const UpdateRate rate : {UpdateRate{0, 0}, {0, 3}, {4, 3}}) {
+    FederationSettings settings;
+    settings.update_rate = rate;
+    EXPECT_THROW(FederationExecution(harbour(), settings), std::invalid_argument);
+    EXPECT_THROW(execution.set_update_rate({}, rate), std::invalid_argument);
   }
 }
 
