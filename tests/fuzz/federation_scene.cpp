@@ -41,7 +41,8 @@ class Scene final : public Outlet {
                                .federate_max = 8,
                                .object_max = 64,
                                .objects_per_federate_max = 16,
-                               .timeouts = {}}) {
+                               .timeouts = {},
+                               .update_rate = {}}) {
     execution_.connect(0);
     witness_.join("rink", "witness", "tester");
     tick();

@@ -57,7 +57,8 @@ class Quay final : public Outlet {
                                .federate_max = 4,
                                .object_max = 64,
                                .objects_per_federate_max = 64,
-                               .timeouts = {}}) {
+                               .timeouts = {},
+                               .update_rate = {}}) {
     execution_.connect(0);
     witness.join("rink", "witness", "tester");
     tick();
