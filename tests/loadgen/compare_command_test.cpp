@@ -102,10 +102,10 @@ TEST_F(CompareCommandTest, AWholeExperimentLeavesAllItsFiles) {
   EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 1 + 2);
   EXPECT_THAT(runs, StartsWith("{\"schema\":1,\"provenance\":{\"schema\":\"1\",\"taken\""));
   EXPECT_THAT(content("out/summary.csv"),
-              HasSubstr("client-server,grid,periodic,2,0,0,1,0.05,0.3,0,0,30,0.005,1,1,,1,0,"));
+              HasSubstr("client-server,grid,periodic,2,0,0,1,0.05,0.3,0,0,30,0.005,1,1,0,,1,0,"));
   EXPECT_THAT(content("out/comparisons.csv"), HasSubstr("cannot be told from one replication"));
   EXPECT_THAT(content("out/tidy.csv"),
-              HasSubstr("\n,client-server,grid,periodic,2,0,0,1,0.05,0.3,0,0,30,0.005,1,1,1,true,"
+              HasSubstr("\n,client-server,grid,periodic,2,0,0,1,0.05,0.3,0,0,30,0.005,1,1,0,1,true,"
                         "ticks,1,"));
   for (const char* file :
        {"out/runs.jsonl", "out/summary.csv", "out/comparisons.csv", "out/tidy.csv",

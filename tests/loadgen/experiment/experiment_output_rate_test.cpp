@@ -39,7 +39,7 @@ TEST(ExperimentOutputRate, IsAnAxisWhoseCellsAreNamedByIt) {
   EXPECT_THAT(names, testing::ElementsAre("client-server-region-periodic-10-rate60-seed1",
                                           "client-server-region-periodic-10-rate60-told20-seed1",
                                           "client-server-region-periodic-10-rate60-told7.5-seed1"));
-  EXPECT_EQ(variant_of(cells_of(experiment)[1]), "told at 20 Hz");
+  EXPECT_EQ(variant_of(cells_of(experiment)[1]), "60 Hz, told at 20 Hz");
 }
 
 TEST(ExperimentOutputRate, OutsideTheRangeIsRefusedByFileLineAndKey) {

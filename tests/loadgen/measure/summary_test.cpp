@@ -79,7 +79,7 @@ TEST(Summary, RatiosAreToTheBaselinePairedBySeed) {
       << "no such baseline was run";
   EXPECT_THAT(
       comparisons_csv(rows, {}),
-      HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,1,,none,periodic,"
+      HasSubstr("client-server,grid,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,1,0,,none,periodic,"
                 "update_age_ms_p50,1,1,1,2,no significant difference,none with periodic\n"));
 }
 
@@ -137,10 +137,10 @@ TEST(Summary, CsvHasOneLinePerRowAndEmptyFieldsForWhatIsAbsent) {
   const auto commas = [](const std::string& line) {
     return std::count(line.begin(), line.end(), ',');
   };
-  EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(18 + 6 * figures().size()));
+  EXPECT_EQ(commas(header), static_cast<std::ptrdiff_t>(19 + 6 * figures().size()));
   EXPECT_EQ(commas(none), commas(header));
   EXPECT_THAT(none, testing::StartsWith(
-                        "client-server,none,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,1,,2,1,"));
+                        "client-server,none,periodic,10,0,0,1,0.05,0.3,0,0,30,0.005,1,1,0,,2,1,"));
   EXPECT_THAT(none, HasSubstr(",102,"));
   EXPECT_THAT(none, HasSubstr(",,,,"));  // update_age_ms_p999
   EXPECT_THAT(none, Not(HasSubstr("1e+09")));

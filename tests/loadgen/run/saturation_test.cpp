@@ -263,7 +263,7 @@ TEST_F(SaturateTest, EachSchemeIsSearchedBetweenTheLeastAndTheLargestNumberOfCli
               HasSubstr("none, periodic: 100 clients hold: 100 % of ticks on time, age p99 20 ms"));
   EXPECT_THAT(table_of(found, level_), HasSubstr("at least 2000"));
   EXPECT_THAT(to_csv(found),
-              HasSubstr("client-server,region,periodic,0,1,0.05,0.3,0,0,30,0.005,1,1,"
+              HasSubstr("client-server,region,periodic,0,1,0.05,0.3,0,0,30,0.005,1,1,0,"
                         "most_holds,2000,,5472,1600,\"\","));
   EXPECT_THAT(to_json_text(found, level_, {}), HasSubstr("\"held_clients\": 2000"));
 }

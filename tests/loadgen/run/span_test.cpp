@@ -87,8 +87,8 @@ TEST_F(SpanTest, RatesOfASteadyStreamDoNotDependOnHowLongItIsWatched) {
               9u)
         << "two f32 and the step from the handle before, in blocks of a few bytes more";
     if (!down) down = record.traffic.updates;
-    EXPECT_NEAR(*record.traffic.updates / *down, 1.0, 1e-3)
-        << "frames of blocks differ by a few bytes";
+    EXPECT_NEAR(*record.traffic.updates / *down, 1.0, 5e-3)
+        << "of some 403 bytes a frame, a stamp takes two, and ten more where the time doubles";
   }
 }
 
