@@ -29,7 +29,8 @@ void PendingChanges::supersede(const UpdateRun& run) {
       if (both == 0) continue;
       changes_[k].objects.erase_word(i, both);
       if (rest.is_empty()) continue;
-      const std::size_t place = place_of(run.owner, rest, changes_[k].stamp);
+      const Stamp stamp = changes_[k].stamp;  // a copy: a new place may move all of them
+      const std::size_t place = place_of(run.owner, rest, stamp);
       changes_[place].objects.insert_word(i, both);
     }
   }
