@@ -166,9 +166,10 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(number_from(1.0, 1000.0))
       .shows_default();
   flags
-      .option("--output-rate", options.output_rate_hz,
-              "times a second, at most --rate, that a client is told of changes, at ticks of its "
-              "own; what happens to its own bat is told at the next tick; 0: at each tick")
+      .option(
+          "--output-rate", options.output_rate_hz,
+          "updates a second to each client, at most --rate and spread over the ticks; events of "
+          "its own bat are sent at the next tick all the same; 0: an update at each tick")
       .check(zero_or_number_from(0.1, 1000.0))
       .shows_default();
   flags

@@ -187,8 +187,8 @@ void ServerProcess::follow_load(double due_s, double begin_s) {
   const std::uint32_t before = output_rates_.divisor(), now = overload_->divisor();
   output_rates_.set_divisor(server_, serving_.execution(), now);
   if (before < now)
-    warn("ticks run late with ", server_.seats().player_count(),
-         " clients: each is told in one of ", now, " of its turns");
+    warn("ticks run late with ", server_.seats().player_count(), " clients: each is sent one of ",
+         now, " of its updates");
 }
 
 /// Under time management ticks keep to their grid whatever has been put off. Nodes play a window

@@ -62,7 +62,7 @@ bool exchange(Stream& stream, Trajectory& t) {
 
 /// The steps of rounding. All are powers of two, so that rounded values are exact in every
 /// encoding.
-inline constexpr double trajectory_time_step = 0x1p-10;      ///< s; an event is told within 0.5 ms
+inline constexpr double trajectory_time_step = 0x1p-10;      ///< s; rounds by at most 0.5 ms
 inline constexpr double trajectory_position_step = 0x1p-11;  ///< m; rounds by at most 0.244 mm
 inline constexpr double trajectory_velocity_step = 0x1p-11;  ///< m/s; rounds by at most 0.244 mm/s
 /// No receiver's trajectory is further than this from the body at any tick [m]: one that rounding

@@ -20,8 +20,6 @@ void push_facts(const Server& server, rti::FederationExecution& federation, Game
   });
 }
 
-}  // namespace
-
 /// A player feels at once what its own keys and collisions do to its bat. What is sent at each tick
 /// anyway waits.
 void send_own_at_once(const Server& server, rti::FederationExecution& federation,
@@ -34,6 +32,8 @@ void send_own_at_once(const Server& server, rti::FederationExecution& federation
     federation.send_at_once(federate, server.publisher().object(*server.game().bat(player)),
                             attributes);
 }
+
+}  // namespace
 
 void push_filter_hints(const Server& server, rti::FederationExecution& federation,
                        GameFacts& facts) {

@@ -1,4 +1,4 @@
-// All clients change together, so that none is told less often than another.
+// Changes the rate of all clients at once, so that none is updated less often than another.
 #include "game/net/server/overload/output_rates.h"
 
 #include <cassert>

@@ -14,9 +14,9 @@ class OutputRates {
   /// `asked` for is the rate of federates that join.
   explicit OutputRates(rti::UpdateRate asked) : asked_(asked) {}
 
-  /// Every player's client is told in one of `divisor` of the turns that were asked for, at least 1
-  /// (asserted), from now on; those that come later as well, by `add_newcomers`. A client is sent
-  /// all in its scope anew when that changes.
+  /// From now on every player's client is sent one of `divisor` updates of the rate that was asked
+  /// for; `divisor` is at least 1 (asserted). Clients that come later follow by `add_newcomers`. A
+  /// client is sent all in its scope anew when its rate changes.
   void set_divisor(const Server& server, rti::FederationExecution& federation,
                    std::uint32_t divisor);
   /// After each tick: clients that were given a bat in it.

@@ -5,9 +5,9 @@
 
 namespace rink::game {
 
-/// Follows the ticks of a server by the clock that it is handed. Where they run late and are not
-/// catching up, each client is told in one of `divisor()` of its turns; where there is time again,
-/// in more of them (docs/rti.md, "Overload").
+/// Follows the ticks of a server by the clock that it is handed. While they run late and do not
+/// catch up, each client is sent one of `divisor()` of its updates; when there is time again, more
+/// of them (docs/rti.md, "Overload").
 class OverloadControl {
  public:
   struct Settings {
