@@ -2,6 +2,7 @@
 #include "rti/fom/fom_modules.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <sstream>
 
@@ -46,6 +47,53 @@ std::optional<Node> difference(const Node& a, const Node& b) {
   return in_a.size() == in_b.size() ? std::nullopt : std::optional(b);
 }
 
+/// The clause of IEEE 1516.2-2010 that speaks of an element.
+std::string_view clause_of(Node node) {
+  struct Clause {
+    std::string_view element, number;
+  };
+  constexpr std::array clauses = {
+      Clause{"modelIdentification", "4.1"},
+      Clause{"objectClass", "4.2"},
+      Clause{"objects", "4.2"},
+      Clause{"interactionClass", "4.3"},
+      Clause{"interactions", "4.3"},
+      Clause{"attribute", "4.4"},
+      Clause{"parameter", "4.5"},
+      Clause{"dimensions", "4.6"},
+      Clause{"time", "4.7"},
+      Clause{"tags", "4.8"},
+      Clause{"synchronizations", "4.9"},
+      Clause{"transportations", "4.10"},
+      Clause{"updateRates", "4.11"},
+      Clause{"switches", "4.12"},
+      Clause{"dataTypes", "4.13"},
+      Clause{"notes", "4.14"},
+  };
+  for (; node; node = node.parent())
+    if (const auto found = std::ranges::find(clauses, node.name(), &Clause::element);
+        found != clauses.end())
+      return found->number;
+  return "4";
+}
+std::string cited(std::string_view clause) {
+  return " (IEEE 1516.2-2010, " + std::string(clause) + ")";
+}
+
+Node named_child(const Node& parent, const char* element, const char* name) {
+  for (const Node& child : parent.children(element))
+    if (std::string_view(child.child("name").text().get()) == name) return child;
+  return {};
+}
+
+/// The standard's own module defines the federate of the management object model.
+bool defines_management(const Node& model) {
+  const Node root = named_child(model.child("objects"), "objectClass", "HLAobjectRoot"),
+             manager = named_child(root, "objectClass", "HLAmanager");
+  return named_child(named_child(manager, "objectClass", "HLAfederate"), "attribute",
+                     "HLAfederateHandle");
+}
+
 bool is_reserved(std::string_view name) {
   const auto is = [&](std::size_t i, char letter) { return (name[i] | 0x20) == letter; };
   return name.size() >= 3 && is(0, 'h') && is(1, 'l') && is(2, 'a');
@@ -59,22 +107,49 @@ FomModules::FomModules(std::span<const FomModule> modules) : modules_(modules) {
     const pugi::xml_parse_result result =
         document.load_buffer(module.xml.data(), module.xml.size());
     if (!result)
-      fail(module, result.offset, std::string("no well-formed XML: ") + result.description());
+      fail(module, result.offset,
+           std::string("no well-formed XML: ") + result.description() + cited("4"));
     const Node model = models_.emplace_back(document.document_element());
     if (std::string_view(model.name()) != "objectModel")
       fail(model,
            "the outermost element must be <objectModel>, not <" + std::string(model.name()) + ">");
+    if (model.attribute("DTDversion"))
+      fail(model,
+           "<objectModel> is of IEEE 1516.2-2000; expected a model of 2010, with names in "
+           "elements of their own");
+    // Every object has this attribute, whatever a module says of it.
+    Node root = named_child(model.child("objects"), "objectClass", "HLAobjectRoot");
+    root.remove_child(named_child(root, "attribute", "HLAprivilegeToDeleteObject"));
+    is_standard_.push_back(module.is_standard);
+    if (defines_management(model)) take_for_standard(model);
   }
 }
 
-const FomModule& FomModules::module_of(const Node& node) const {
+void FomModules::take_for_standard(Node model) {
+  is_standard_.back() = true;
+  Node objects = named_child(model.child("objects"), "objectClass", "HLAobjectRoot"),
+       interactions =
+           named_child(model.child("interactions"), "interactionClass", "HLAinteractionRoot");
+  objects.remove_child(named_child(objects, "objectClass", "HLAmanager"));
+  interactions.remove_child(named_child(interactions, "interactionClass", "HLAmanager"));
+  Node dimensions = model.child("dimensions");
+  for (const char* own : {"HLAfederate", "HLAserviceGroup"})
+    dimensions.remove_child(named_child(dimensions, "dimension", own));
+}
+
+std::size_t FomModules::index_of(const Node& node) const {
   for (std::size_t i = 0; i < documents_.size(); ++i)
-    if (node.root() == documents_[i].root()) return modules_[i];
-  return modules_.front();
+    if (node.root() == documents_[i].root()) return i;
+  return 0;
+}
+
+bool FomModules::may_extend(const Node& node) const {
+  const std::string_view space = models_[index_of(node)].attribute("xmlns").value();
+  return space.ends_with("IEEE1516-2025");
 }
 
 std::string FomModules::place(const Node& node) const {
-  const FomModule& module = module_of(node);
+  const FomModule& module = modules_[index_of(node)];
   return module.source + ":" + std::to_string(line_of(module.xml, node.offset_debug()));
 }
 
@@ -84,12 +159,16 @@ void FomModules::fail(const FomModule& module, std::ptrdiff_t offset, const std:
 }
 
 void FomModules::fail(const Node& node, const std::string& what) const {
-  fail(module_of(node), node.offset_debug(), what);
+  fail(modules_[index_of(node)], node.offset_debug(), what + cited(clause_of(node)));
+}
+
+void FomModules::warn(const Node& node, const std::string& what) {
+  warnings_.push_back(place(node) + ": " + what + cited(clause_of(node)));
 }
 
 void FomModules::conflict(const Node& here, const std::string& what, const Node& there) const {
   throw FileError(place(here) + ": " + to_string(HlaError::inconsistent_fdd) + ": " + what +
-                      " at " + place(there),
+                      " at " + place(there) + cited(clause_of(here)),
                   HlaError::inconsistent_fdd);
 }
 
@@ -111,7 +190,8 @@ std::string FomModules::text(const Node& node, const char* child) const {
 }
 
 std::vector<FomModules::Group> FomModules::groups(std::span<const Node> parents,
-                                                  const char* element) const {
+                                                  const char* element,
+                                                  const std::string& where) const {
   std::vector<Group> all;
   for (const Node& parent : parents)
     for (const Node& node : parent.children(element)) {
@@ -119,7 +199,7 @@ std::vector<FomModules::Group> FomModules::groups(std::span<const Node> parents,
       auto found = std::ranges::find(all, name, &Group::name);
       if (found == all.end()) found = all.insert(all.end(), {name, {}});
       else if (found->nodes.back().parent() == parent)
-        fail(node, path(node) + " is declared twice");
+        fail(node, path(node) + " is declared twice" + where);
       found->nodes.push_back(node);
     }
   return all;
