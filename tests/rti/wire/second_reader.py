@@ -63,6 +63,8 @@ class Model:
     def travel_lines(self, element):
         """Transportation, order and dimensions as numbers."""
         bits = sum(1 << [name for name, _ in self.dimensions].index(each.text) for each in element.findall("dimensions/dimension"))
+        if element.findtext("name") == "HLAinteractionRoot":
+            return ["0", "0", str(bits)]
         return [str(int(element.findtext("transportation") == "HLAbestEffort")), str(int(element.findtext("order") == "TimeStamp")), str(bits)]
 
     def member_lines(self, element, is_attribute):
