@@ -13,13 +13,19 @@
 
 namespace rink::rti {
 
+/// A bit for each attribute of a class. Two machine words hold the widest class of the published
+/// models (88 attributes) and still travel in registers.
+using AttributeBits = unsigned __int128;
 /// Attributes of one object class.
-using AttributeSet = HandleSet<AttributeHandle, std::uint32_t>;
-inline constexpr std::uint32_t attribute_max = AttributeSet::capacity;
+using AttributeSet = HandleSet<AttributeHandle, AttributeBits>;
+/// Handles of attributes are below it. The topmost bit is free, so that a set's bits from 63 on fit
+/// one word (rti/wire/attribute_bits.h).
+inline constexpr std::uint32_t attribute_max = AttributeSet::capacity - 1;
 /// Every object has this attribute, HLAprivilegeToDeleteObject, whether its class names it or not:
 /// its owner may delete the object. It has no value, every federate that publishes any attribute of
-/// a class publishes it, and only ownership management names it.
-inline constexpr AttributeHandle privilege_to_delete_object{attribute_max - 1};
+/// a class publishes it, and only ownership management names it. Its number is above those of
+/// classes that a word of 32 bits holds; wider classes leave that number out.
+inline constexpr AttributeHandle privilege_to_delete_object{31};
 /// Most attributes that a class may name, inherited ones included.
 inline constexpr std::uint32_t named_attribute_max = attribute_max - 1;
 

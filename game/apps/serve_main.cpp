@@ -211,6 +211,7 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   const rti::FederationFile file = follow_federation_file(options);
   const std::string& federation = file.federation;
   const rti::Fom fom = load_rink_fom(file.fom);
+  for (const std::string& warning : fom.warnings()) warn(warning);
   ServedGame played = game_of(options, command);
   std::optional<SharedGame> shared;
   if (is_node(options)) shared.emplace(played.scene, std::vector<InputEvent>{});

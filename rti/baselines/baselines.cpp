@@ -47,9 +47,9 @@ Baselines::Baselines(const Fom& fom, std::uint32_t keyframe_period)
 
 const QuantisedCodec* Baselines::codec_of(const UpdateRun& run) const {
   assert(run.object_class < fom_.object_classes().size());
-  if (std::popcount(run.attributes.bits) != 1) return nullptr;
+  if (run.attributes.count() != 1) return nullptr;
   return fom_.object_classes()[run.object_class]
-      .attributes[static_cast<std::size_t>(std::countr_zero(run.attributes.bits))]
+      .attributes[run.attributes.front().value]
       .baselines.get();
 }
 

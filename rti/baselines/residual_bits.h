@@ -48,10 +48,7 @@ struct ResidualCursor {
   std::uint32_t handle = 0;  ///< of the record before
 
   /// The highest alone.
-  static AttributeSet greatest(AttributeSet set) {
-    assert(!set.is_empty());
-    return AttributeSet(std::bit_floor(set.bits));
-  }
+  static AttributeSet greatest(AttributeSet set) { return {set.back()}; }
 };
 
 /// Writes or reads the handle; a reader returns false if it is no handle.
@@ -99,8 +96,7 @@ bool exchange_attributes(Stream& stream, ResidualCursor& cursor, AttributeSet& a
   if (!stream.flag(is_as_before)) return false;
   if (is_as_before) return attributes = cursor.attributes, !attributes.is_empty();
   AttributeSet named;
-  for (std::uint32_t left = cursor.residual.bits; left != 0; left &= left - 1) {
-    const AttributeHandle each{static_cast<std::uint32_t>(std::countr_zero(left))};
+  for (const AttributeHandle each : cursor.residual) {
     bool is_there = !Stream::is_reading && attributes.contains(each);
     if (!stream.flag(is_there)) return false;
     if (is_there) named.insert(each);

@@ -90,8 +90,8 @@ std::optional<std::uint64_t> ResidualModel::companion_key(std::uint16_t object_c
                                                           AttributeSet set, Bytes values) const {
   const Class& of = classes_[object_class];
   assert(of.residual.includes(set));
-  for (std::uint32_t left = set.bits; left != 0; left &= left - 1) {
-    const auto each = static_cast<std::uint32_t>(std::countr_zero(left));
+  for (const AttributeHandle handle : set) {
+    const std::uint32_t each = handle.value;
     const std::uint32_t size = of.attributes[each].size;
     if (const auto key = codec(object_class, each).companion_key(values.first(size))) return key;
     values = values.subspan(size);
@@ -103,8 +103,8 @@ bool ResidualModel::encode(const ResidualUpdate& update, Bytes values, const For
                            BitWriter& bits) const {
   const Class& of = classes_[update.object_class];
   assert(of.residual.includes(update.attributes));
-  for (std::uint32_t left = update.attributes.bits; left != 0; left &= left - 1) {
-    const auto each = static_cast<std::uint32_t>(std::countr_zero(left));
+  for (const AttributeHandle handle : update.attributes) {
+    const std::uint32_t each = handle.value;
     const std::uint32_t size = of.attributes[each].size;
     std::optional<ResidualBasis> known = basis(of, each, former);
     const std::optional<ResidualChange> other = change(of, each, update.companion);
@@ -121,8 +121,8 @@ bool ResidualModel::decode(const ResidualUpdate& update, FormerValues& former, B
                            std::vector<std::byte>& values) const {
   const Class& of = classes_[update.object_class];
   if (!of.residual.includes(update.attributes)) return false;
-  for (std::uint32_t left = update.attributes.bits; left != 0; left &= left - 1) {
-    const auto each = static_cast<std::uint32_t>(std::countr_zero(left));
+  for (const AttributeHandle handle : update.attributes) {
+    const std::uint32_t each = handle.value;
     std::optional<ResidualBasis> known = basis(of, each, former);
     const std::optional<ResidualChange> other = change(of, each, update.companion);
     if (known && other) known->companion = &*other;

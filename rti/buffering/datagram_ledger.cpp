@@ -39,16 +39,16 @@ void DatagramLedger::drop_oldest() {
 /// is gathered once, however many are lost. Losses are rare, so this may allocate.
 template <class IsLost>
 void DatagramLedger::lose(IsLost is_lost, std::vector<Lost>& lost) {
-  std::unordered_map<std::uint32_t, std::uint32_t> sent_later;
+  std::unordered_map<std::uint32_t, AttributeSet> sent_later;
   for (std::uint32_t number = next_ - 1; number != oldest() - 1; --number) {
     Entry& entry = at(number);
     const bool is_given_up = !entry.is_settled && is_lost(number);
     entry.is_settled |= is_given_up;
     for_each_sent(groups(entry), [&](std::uint32_t handle, AttributeSet set) {
-      std::uint32_t& later = sent_later[handle];
-      const AttributeSet missing(set.bits & ~later);
+      AttributeSet& later = sent_later[handle];
+      const AttributeSet missing = set.without(later);
       if (is_given_up && !missing.is_empty()) lost.push_back({handle, missing});
-      later |= set.bits;
+      later = later | set;
     });
   }
 }

@@ -22,7 +22,8 @@ class SentRecord {
   bool is_empty() const { return bytes_.empty(); }
   void begin_group(AttributeSet attributes) {
     end_group();
-    Writer(bytes_).varint(attributes.bits);
+    Writer writer(bytes_);
+    attribute_bits(writer, attributes.bits);
     last_ = 0;
     has_group_ = true;
   }
@@ -53,8 +54,9 @@ template <class Visit>
 void for_each_sent(Bytes groups, Visit visit) {
   Reader reader(groups);
   while (!reader.is_at_end()) {
-    std::uint32_t attributes = 0, handle = 0;
-    if (!reader.varint(attributes)) return;
+    AttributeBits attributes = 0;
+    std::uint32_t handle = 0;
+    if (!attribute_bits(reader, attributes)) return;
     for (HandleReader handles; handles.next(reader, handle) == HandleReader::Next::handle;)
       visit(handle, AttributeSet(attributes));
   }

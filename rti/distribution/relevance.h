@@ -55,8 +55,7 @@ class Relevance {
 
     bool change(AttributeSet before, AttributeSet now) {
       const AttributeSet any_before = any, several_before = several;
-      for (std::uint32_t bits = before.bits ^ now.bits; bits != 0; bits &= bits - 1) {
-        const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+      for (const AttributeHandle attribute : AttributeSet(before.bits ^ now.bits)) {
         std::uint32_t& count = by_attribute[attribute.value];
         assert(count > 0 || now.contains(attribute));
         count += now.contains(attribute) ? 1u : ~0u;

@@ -12,12 +12,10 @@ namespace {
 /// Calls `visit(attribute, index)` in ascending order until it returns false; true if it never did.
 template <class Visit>
 bool for_each(const ObjectClass& object_class, AttributeSet set, Visit visit) {
-  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
-    assert(index < object_class.attributes.size());
-    if (!visit(object_class.attributes[index], index)) return false;
-  }
-  return true;
+  return set.all_of([&](AttributeHandle attribute) {
+    assert(attribute.value < object_class.attributes.size());
+    return visit(object_class.attributes[attribute.value], attribute.value);
+  });
 }
 
 std::optional<std::size_t> one_coded_size(const Attribute& attribute, Bytes coded) {

@@ -2,32 +2,16 @@
 #include "rti/fom/data_types.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <sstream>
 
+#include "rti/fom/enumerations.h"
+#include "rti/fom/standard_types.h"
+
 namespace rink::rti {
 
 namespace {
-
-struct BasicType {
-  const char* name;
-  std::uint32_t size;
-};
-/// The fixed-size representations of IEEE 1516.2, with its predefined HLAbyte, HLAASCIIchar,
-/// HLAunicodeChar and HLAboolean.
-constexpr std::array basic_types = {
-    BasicType{"HLAoctet", 1},       BasicType{"HLAbyte", 1},        BasicType{"HLAASCIIchar", 1},
-    BasicType{"HLAoctetPairBE", 2}, BasicType{"HLAoctetPairLE", 2}, BasicType{"HLAunicodeChar", 2},
-    BasicType{"HLAinteger16BE", 2}, BasicType{"HLAinteger16LE", 2}, BasicType{"HLAinteger32BE", 4},
-    BasicType{"HLAinteger32LE", 4}, BasicType{"HLAinteger64BE", 8}, BasicType{"HLAinteger64LE", 8},
-    BasicType{"HLAfloat32BE", 4},   BasicType{"HLAfloat32LE", 4},   BasicType{"HLAfloat64BE", 8},
-    BasicType{"HLAfloat64LE", 8},   BasicType{"HLAboolean", 4},
-};
-/// Types of the standard whose size varies.
-constexpr std::array varying_types = {"HLAASCIIstring", "HLAunicodeString", "HLAopaqueData",
-                                      "HLAtoken"};
 
 constexpr std::uint32_t count_size = 4;  ///< of the HLAinteger32BE that begins an HLAvariableArray
 
@@ -51,11 +35,9 @@ void DataTypes::declare(const Node& node) {
   const auto [known, is_new] = declared_.emplace(name, node);
   if (!is_new && known->second.root() == node.root())
     fail(node, "data type '" + name + "' is declared twice");
+  if (standard_type(name)) return;  // models copy these with words of their own
   if (!is_new) modules_.require_same(known->second, node, "");
-  const bool is_known =
-      std::ranges::find(basic_types, name, &BasicType::name) != basic_types.end() ||
-      std::ranges::find(varying_types, name) != varying_types.end();
-  if (!is_known) modules_.require_unreserved({name, {known->second, node}});
+  modules_.require_unreserved({name, {known->second, node}});
 }
 
 void DataTypes::read() {
@@ -76,45 +58,46 @@ void DataTypes::read() {
 void DataTypes::check() {
   for (const auto& [name, node] : declared_) {
     const Size size = size_of(name, node);
-    const auto standard = std::ranges::find(basic_types, name, &BasicType::name);
-    if (standard != basic_types.end() && size != standard->size)
-      fail(node, path(node) + " is the standard's, whose size is " +
-                     std::to_string(8 * standard->size) + " bits");
+    const auto standard = standard_type(name);
+    if (standard && size != standard->size)
+      fail(node,
+           path(node) + " is the standard's, whose size " +
+               (standard->size ? "is " + std::to_string(8 * *standard->size) + " bits" : "varies"));
     if (std::string_view(node.name()) == "variantRecordData") check_variants(node);
-    if (std::string_view(node.name()) == "enumeratedData") check_enumerators(node);
+    if (std::string_view(node.name()) == "enumeratedData")
+      check_enumerators(modules_, node, size.value_or(0));
   }
 }
 
 void DataTypes::check_variants(const Node& node) {
   const std::string discriminant = text(node, "dataType");
-  const auto found = declared_.find(discriminant);
-  if (discriminant != "HLAboolean" &&
-      (found == declared_.end() || std::string_view(found->second.name()) != "enumeratedData"))
+  const std::vector<std::string> enumerators = enumerators_of(discriminant);
+  if (enumerators.empty())
     fail(node.child("dataType"),
          path(node) + " must have an enumerated data type as its discriminant, not '" +
              discriminant + "'");
-  for (const Node& alternative : node.children("alternative")) {
-    text(alternative, "enumerator");
+  check_alternatives(modules_, node, enumerators);
+  for (const Node& alternative : node.children("alternative"))
     if (modules_.text_or(alternative, "dataType", "NA") != "NA")
       size_of(text(alternative, "dataType"), alternative);
-  }
 }
 
-void DataTypes::check_enumerators(const Node& node) {
-  std::set<std::string> names;
-  for (const Node& enumerator : node.children("enumerator"))
-    if (!names.insert(text(enumerator, "name")).second)
-      fail(enumerator, path(enumerator) + " of " + path(node) + " is declared twice");
+/// In their order; none if the type is no enumeration.
+std::vector<std::string> DataTypes::enumerators_of(const std::string& type) const {
+  const auto found = declared_.find(type);
+  std::vector<std::string> names;
+  if (found == declared_.end())
+    return type == "HLAboolean" ? std::vector<std::string>{"HLAfalse", "HLAtrue"} : names;
+  for (const Node& enumerator : found->second.children("enumerator"))
+    names.push_back(text(enumerator, "name"));
+  return names;
 }
 
 DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
   if (const auto known = sizes_.find(type); known != sizes_.end()) return known->second;
   const auto declared = declared_.find(type);
   if (declared == declared_.end()) {
-    for (const BasicType& basic : basic_types)
-      if (type == basic.name) return basic.size;
-    if (std::find(varying_types.begin(), varying_types.end(), type) != varying_types.end())
-      return std::nullopt;
+    if (const auto standard = standard_type(type)) return standard->size;
     fail(user, path(user) + " has the unknown data type '" + type +
                    "'; allowed are those in <dataTypes> and the standard's, such as HLAfloat32LE");
   }
@@ -145,20 +128,36 @@ DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
   return size;
 }
 
+/// The number of elements, that of each dimension multiplied; nothing if one is a range or Dynamic.
+std::optional<std::uint64_t> DataTypes::cardinality_of(const Node& node) const {
+  const Node list = node.child("cardinality");
+  if (!list) fail(node, path(node) + " lacks <cardinality>");
+  std::optional<std::uint64_t> product = 1;
+  for (const ListEntry& each : entries_of(modules_, node, list.text().get())) {
+    if (each.first == "Dynamic" && each.last == each.first) {
+      product.reset();
+      continue;
+    }
+    for (const std::string& bound : {each.first, each.last})
+      if (bound.find_first_not_of("0123456789") != std::string::npos)
+        fail(node, path(node) + " must have a <cardinality> of counts, [ranges] or Dynamic");
+    const bool is_count = each.first == each.last;
+    if (is_count && each.first.size() > 6)
+      fail(node, path(node) + " has more than 999999 elements");
+    if (!is_count || !product) product.reset();
+    else product = std::min<std::uint64_t>(*product * std::stoull(each.first), 1u << 20);
+  }
+  return product;
+}
+
 /// As the standard lays arrays out: each element begins at a multiple of its octet boundary value,
 /// after the number of elements if the encoding has one; nothing lies behind the last. In an
 /// encoding of the model's own the elements stand side by side.
 DataTypes::Size DataTypes::size_of_array(const Node& node) {
-  const std::string cardinality = text(node, "cardinality");
+  const std::optional<std::uint64_t> cardinality = cardinality_of(node);
   const Size element = size_of(text(node, "dataType"), node);
-  if (cardinality.find_first_not_of("0123456789") != std::string::npos) {
-    if (cardinality != "Dynamic" && cardinality.front() != '[')
-      fail(node, path(node) + " must have a <cardinality> that is a count, a [range] or Dynamic");
-    return std::nullopt;
-  }
-  if (cardinality.size() > 6) fail(node, path(node) + " has more than 999999 elements");
-  if (!element) return std::nullopt;
-  const std::uint64_t count = std::stoull(cardinality);
+  if (!cardinality || !element) return std::nullopt;
+  const std::uint64_t count = *cardinality;
   const std::string encoding = encoding_of(node, "HLAfixedArray");
   const bool is_counted = encoding == "HLAvariableArray";
   const std::uint32_t boundary =

@@ -19,7 +19,7 @@ class DataTypes {
   using Size = std::optional<std::uint32_t>;  ///< [bytes]; nothing: it varies
 
   /// The modules must outlive it.
-  explicit DataTypes(const FomModules& modules) : modules_(modules) {}
+  explicit DataTypes(FomModules& modules) : modules_(modules) {}
   void read();
   /// Of a declared type or one of the standard's; `user` is the element that names it.
   Size size_of(const std::string& type, const Node& user);
@@ -38,12 +38,13 @@ class DataTypes {
   std::string text(const Node& node, const char* child) const { return modules_.text(node, child); }
   void declare(const Node& node);
   void check_variants(const Node& node);
-  void check_enumerators(const Node& node);
+  std::vector<std::string> enumerators_of(const std::string& type) const;
+  std::optional<std::uint64_t> cardinality_of(const Node& node) const;
   Size size_of_array(const Node& node);
   Size size_of_record(const Node& node);
   std::uint32_t boundary_of(const std::string& type, const Node& user);
 
-  const FomModules& modules_;
+  FomModules& modules_;
   std::map<std::string, Node> declared_;
   std::map<std::string, Size> sizes_;
   std::set<std::string> being_sized_;

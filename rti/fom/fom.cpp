@@ -71,10 +71,23 @@ void Fom::check() const {
   assert(own_interaction_classes_ <= interaction_classes_.size());
   assert(dimensions_.size() <= DimensionSet::capacity);
   for (const ObjectClass& each : object_classes_) {
-    assert(each.attributes.size() < AttributeSet::capacity);
+    assert(each.attributes.size() <= attribute_max);
+    assert(each.all == AttributeSet((AttributeBits{1} << each.attributes.size()) - 1)
+                           .without(AttributeSet{privilege_to_delete_object}));
+    assert(each.attributes.size() <= privilege_to_delete_object.value ||
+           each.attributes[privilege_to_delete_object.value].size == 0u);
     for ([[maybe_unused]] const Attribute& attribute : each.attributes)
       assert(attribute.baselines == nullptr || attribute.codec != nullptr);
   }
+}
+
+void add_attribute(std::vector<Attribute>& attributes, Attribute attribute) {
+  if (attributes.size() == privilege_to_delete_object.value) {
+    Attribute& privilege = attributes.emplace_back();
+    privilege.name = "HLAprivilegeToDeleteObject";
+    privilege.size = 0;
+  }
+  attributes.push_back(std::move(attribute));
 }
 
 std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values) {
@@ -144,11 +157,7 @@ std::optional<AttributeHandle> Fom::periodic_attribute(ObjectClassHandle handle)
   return std::nullopt;
 }
 
-AttributeSet Fom::attributes(ObjectClassHandle handle) const {
-  const std::size_t count = at(handle).attributes.size();
-  assert(count < AttributeSet::capacity);
-  return AttributeSet((1u << count) - 1u);
-}
+AttributeSet Fom::attributes(ObjectClassHandle handle) const { return at(handle).all; }
 
 bool Fom::is_a(ObjectClassHandle handle, ObjectClassHandle ancestor) const {
   return inherits(object_classes_, handle, ancestor);
@@ -159,9 +168,8 @@ bool Fom::is_a(InteractionClassHandle handle, InteractionClassHandle ancestor) c
 
 std::optional<std::uint32_t> Fom::values_size(ObjectClassHandle handle, AttributeSet set) const {
   std::uint32_t size = 0;
-  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const Attribute& attribute =
-        at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))];
+  for (const AttributeHandle each : set) {
+    const Attribute& attribute = at(handle).attributes[each.value];
     if (!attribute.size) return std::nullopt;
     size += *attribute.size;
   }
@@ -170,21 +178,20 @@ std::optional<std::uint32_t> Fom::values_size(ObjectClassHandle handle, Attribut
 
 bool Fom::values_fit(ObjectClassHandle handle, AttributeSet set, Bytes values) const {
   if (!attributes(handle).includes(set)) return false;
-  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto size =
-        plain_size(at(handle).attributes[static_cast<std::size_t>(std::countr_zero(bits))], values);
-    if (!size) return false;
-    values = values.subspan(*size);
-  }
-  return values.empty();
+  const ObjectClass& object_class = at(handle);
+  const bool is_whole = set.all_of([&](AttributeHandle each) {
+    const auto size = plain_size(object_class.attributes[each.value], values);
+    if (size) values = values.subspan(*size);
+    return size.has_value();
+  });
+  return is_whole && values.empty();
 }
 
 Bytes Fom::value(ObjectClassHandle handle, AttributeSet set, AttributeHandle attribute,
                  Bytes values) const {
-  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
-    const std::size_t size = plain_size(at(handle).attributes[index], values).value_or(0);
-    if (index == attribute.value) return values.first(size);
+  for (const AttributeHandle each : set) {
+    const std::size_t size = plain_size(at(handle).attributes[each.value], values).value_or(0);
+    if (each == attribute) return values.first(size);
     values = values.subspan(size);
   }
   return {};

@@ -34,6 +34,9 @@ struct Attribute {
       baselines;  ///< not null: periodic state, which travels as differences to acknowledged
                   ///< baselines (rti/baselines)
 };
+/// Adds one to a class's attributes. Where it would get the number of the privilege to delete, an
+/// entry of that name without data goes before it, so that handles stay indices.
+void add_attribute(std::vector<Attribute>& attributes, Attribute attribute);
 /// Bytes of the uncoded value that starts `values` (its length word included if its size varies),
 /// or nothing if it isn't all there.
 std::optional<std::size_t> plain_size(const Attribute& attribute, Bytes values);
@@ -48,7 +51,9 @@ struct ObjectClass {
   std::string name;          ///< unqualified, as in the file
   ObjectClassHandle parent;  ///< empty for the root
   std::vector<Attribute>
-      attributes;  ///< inherited ones first, so a handle means the same in every subclass
+      attributes;  ///< inherited ones first, so a handle means the same in every subclass; the
+                   ///< privilege to delete is among them only where there are others beyond it
+  AttributeSet all = {};  ///< their handles, without the privilege to delete
 };
 
 struct InteractionClass {
@@ -90,6 +95,9 @@ class Fom {
   const std::vector<InteractionClass>& interaction_classes() const { return interaction_classes_; }
   const std::vector<Dimension>& dimensions() const { return dimensions_; }
   const FomSwitches& switches() const { return switches_; }
+  /// What the model asks for and this RTI does otherwise, each with file, line and element; not
+  /// part of the hash. Programs that load a model print them.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// True of a class of the management object model, which every model has behind its own
   /// (docs/rti.md, "Management"): only the RTI sends them.
   bool is_management(ObjectClassHandle handle) const { return handle.value >= own_object_classes_; }
@@ -155,6 +163,7 @@ class Fom {
   std::vector<InteractionClass> interaction_classes_;
   std::vector<Dimension> dimensions_;
   FomSwitches switches_;
+  std::vector<std::string> warnings_;
   std::size_t own_object_classes_ = 0,
               own_interaction_classes_ = 0;  ///< those before the management object model's
   std::uint64_t hash_ = 0;

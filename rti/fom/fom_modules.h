@@ -14,7 +14,12 @@ namespace rink::rti {
 
 /// Definitions may be repeated if they agree, semantics aside; a class may be named without content
 /// to define subclasses of it (scaffolding). All else is a conflict, an InconsistentFDD that names
-/// both places.
+/// both places. What is wrong is told by file, line, element and the clause of IEEE 1516.2-2010
+/// that speaks of it.
+///
+/// A module that defines the management classes (HLAmanager with HLAfederate) is taken for the
+/// standard's management and initialization module. Those classes, its dimensions and what it says
+/// about the root of interactions stand behind every model anyhow, and are left out here.
 class FomModules {
  public:
   using Node = pugi::xml_node;
@@ -31,6 +36,9 @@ class FomModules {
   const std::vector<Node>& models() const { return models_; }
   std::string place(const Node& node) const;  ///< "harbour.xml:12"
   [[noreturn]] void fail(const Node& node, const std::string& what) const;
+  /// Notes what is understood otherwise than it is meant.
+  void warn(const Node& node, const std::string& what);
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// "<attribute> 'speed'"
   static std::string path(const Node& node);
   /// The one word that the child holds; throws if it is missing or holds anything else.
@@ -39,8 +47,9 @@ class FomModules {
     return node.child(child) ? text(node, child) : otherwise;
   }
   /// All children `element` of the parents, by name, in the order of their first appearance. Throws
-  /// if one parent has two of a name.
-  std::vector<Group> groups(std::span<const Node> parents, const char* element) const;
+  /// if one parent has two of a name, which `where` may say more of.
+  std::vector<Group> groups(std::span<const Node> parents, const char* element,
+                            const std::string& where = "") const;
   /// The children of that name in each model.
   std::vector<Node> sections(const char* element) const;
   /// Throws InconsistentFDD unless both agree; `of` follows the element's name, as " of class
@@ -52,16 +61,21 @@ class FomModules {
   /// Throws if a module that is not the standard's defines a name of the standard's: those that
   /// begin with HLA in any case.
   void require_unreserved(const Group& group) const;
-  bool is_standard(const Node& node) const { return module_of(node).is_standard; }
+  bool is_standard(const Node& node) const { return is_standard_[index_of(node)]; }
+  /// True in a module of IEEE 1516.2-2025, where modules may add members to a class of another.
+  bool may_extend(const Node& node) const;
 
  private:
-  const FomModule& module_of(const Node& node) const;
+  std::size_t index_of(const Node& node) const;
+  void take_for_standard(pugi::xml_node model);
   [[noreturn]] static void fail(const FomModule& module, std::ptrdiff_t offset,
                                 const std::string& what);
 
   std::span<const FomModule> modules_;
   std::deque<pugi::xml_document> documents_;
   std::vector<Node> models_;
+  std::vector<bool> is_standard_;  ///< by module
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace rink::rti

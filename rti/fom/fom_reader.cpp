@@ -52,6 +52,10 @@ class FomReader {
   template <class Handle, class Class>
   Handle add_class(std::vector<Class>& classes, Class read, const Node& node,
                    const char* kind) const;
+  void read_transportations();
+  void warn_of_absent();
+  std::vector<Group> members_of(const Group& group, const char* element) const;
+  Node transport_of(const Group& group) const;
   Transportation transportation(const Node& node) const;
   Order order(const Node& node) const;
   DimensionSet dimensions_of(const Node& node) const;
@@ -61,6 +65,7 @@ class FomReader {
   FomModules modules_;
   DataTypes types_{modules_};
   std::map<std::string, std::shared_ptr<const QuantisedCodec>> codecs_;
+  std::map<std::string, Transportation> transportations_;
   Fom fom_;
 };
 
@@ -70,14 +75,16 @@ Fom FomReader::read() {
       fom_.name_ = model.child("modelIdentification").child("name").text().get();
   types_.read();
   read_dimensions();
+  read_transportations();
   const std::vector<Node> objects = modules_.sections("objects"),
                           interactions = modules_.sections("interactions");
-  if (objects.empty()) fail(modules_.models().front(), "<objectModel> lacks <objects>");
   for (const Group& group : modules_.groups(objects, "objectClass")) read_object_class(group, {});
   for (const Group& group : modules_.groups(interactions, "interactionClass"))
     read_interaction_class(group, {});
   types_.check();
   fom_.switches_ = read_switches(modules_);
+  warn_of_absent();
+  fom_.warnings_ = modules_.warnings();
   fom_.hash_ = hash();
   fom_.own_object_classes_ = fom_.object_classes_.size();
   fom_.own_interaction_classes_ = fom_.interaction_classes_.size();
@@ -86,6 +93,9 @@ Fom FomReader::read() {
         return each.name == "HLAmanager";
       });  // a module of the standard's
   if (!brings_its_own) append_management_classes(fom_.object_classes_, fom_.interaction_classes_);
+  for (ObjectClass& each : fom_.object_classes_)
+    for (std::uint32_t i = 0; i < each.attributes.size(); ++i)
+      if (i != privilege_to_delete_object.value) each.all.insert({i});
   fom_.check();
   return std::move(fom_);
 }
@@ -99,6 +109,42 @@ void FomReader::read_dimensions() {
       fail(node, "more than " + std::to_string(dimension_max) + " dimensions");
     fom_.dimensions_.push_back({group.name, upper_bound(node)});
   }
+}
+
+/// A model's own type of transportation is one of the standard's two: that which is as reliable.
+void FomReader::read_transportations() {
+  transportations_ = {{"HLAreliable", Transportation::reliable},
+                      {"HLAbestEffort", Transportation::best_effort}};
+  for (const Group& group :
+       modules_.groups(modules_.sections("transportations"), "transportation")) {
+    const Node& node = group.nodes.front();
+    if (transportations_.contains(group.name)) continue;
+    modules_.require_unreserved(group);
+    for (const Node& other : group.nodes) modules_.require_same(node, other, "");
+    const std::string reliable = text(node, "reliable");
+    if (reliable != "Yes" && reliable != "No")
+      fail(node.child("reliable"),
+           path(node) + " has <reliable> '" + reliable + "'; allowed are Yes, No");
+    transportations_[group.name] =
+        reliable == "Yes" ? Transportation::reliable : Transportation::best_effort;
+  }
+}
+
+/// Tables that ask for what this RTI does not do.
+void FomReader::warn_of_absent() {
+  for (const Node& rates : modules_.sections("updateRates"))
+    if (rates.child("updateRate"))
+      modules_.warn(rates,
+                    "<updateRates>: updates reach each subscriber at the rate at which they "
+                    "are made");
+  for (const Node& time : modules_.sections("time"))
+    for (const char* kind : {"timeStamp", "lookahead"}) {
+      const Node node = time.child(kind);
+      if (modules_.text_or(node, "dataType", "NA") == "HLAinteger64Time")
+        modules_.warn(node, std::string("<") + kind +
+                                "> is HLAinteger64Time: logical time is an "
+                                "HLAfloat64Time here");
+    }
 }
 
 std::optional<std::uint32_t> FomReader::upper_bound(const Node& node) const {
@@ -128,10 +174,11 @@ DimensionSet FomReader::dimensions_of(const Node& node) const {
 
 Transportation FomReader::transportation(const Node& node) const {
   const std::string name = text_or(node, "transportation", "HLAreliable");
-  if (name == "HLAreliable") return Transportation::reliable;
-  if (name == "HLAbestEffort") return Transportation::best_effort;
-  fail(node.child("transportation"),
-       path(node) + " has transportation '" + name + "'; allowed are HLAreliable, HLAbestEffort");
+  if (const auto found = transportations_.find(name); found != transportations_.end())
+    return found->second;
+  fail(node.child("transportation"), path(node) + " has transportation '" + name +
+                                         "'; allowed are HLAreliable, HLAbestEffort and those in "
+                                         "<transportations>");
 }
 
 Order FomReader::order(const Node& node) const {
@@ -157,6 +204,42 @@ void FomReader::require_same_members(const Node& first, const Node& second,
   }
 }
 
+/// The attributes or parameters of one class, as the first module that has some defines them, and
+/// those that later modules of IEEE 1516.2-2025 add. Other modules name the class without any, as a
+/// scaffold, or repeat them.
+std::vector<FomReader::Group> FomReader::members_of(const Group& group, const char* element) const {
+  std::vector<Node> definitions;
+  Node first;
+  for (const Node& node : group.nodes) {
+    if (!node.child(element)) continue;
+    const bool is_repeated = first && !modules_.may_extend(node);
+    if (is_repeated) require_same_members(first, node, element);
+    else definitions.push_back(node);
+    if (!first && !modules_.may_extend(node)) first = node;
+  }
+  const std::string of = " of class '" + group.name + "'";
+  std::vector<Group> members =
+      modules_.groups(definitions, element, " in class '" + group.name + "' or what it inherits");
+  for (const Group& member : members)
+    for (const Node& node : member.nodes) modules_.require_same(member.nodes.front(), node, of);
+  return members;
+}
+
+/// The module's part that says how interactions of a class travel; modules that say so must agree.
+FomReader::Node FomReader::transport_of(const Group& group) const {
+  Node definition;
+  for (const Node& node : group.nodes) {
+    if (!node.child("parameter") && !node.child("transportation") && !node.child("order") &&
+        !node.child("dimensions"))
+      continue;  // a scaffold
+    if (definition && !modules_.may_extend(node))
+      for (const char* element : {"transportation", "order", "dimensions"})
+        modules_.require_same_child(definition, node, element);
+    if (!definition) definition = node;
+  }
+  return definition ? definition : group.nodes.front();
+}
+
 void FomReader::read_object_class(const Group& group, ObjectClassHandle parent) {
   const Node& front = group.nodes.front();
   if (parent || group.name != "HLAobjectRoot") modules_.require_unreserved(group);
@@ -164,16 +247,10 @@ void FomReader::read_object_class(const Group& group, ObjectClassHandle parent) 
   object_class.name = group.name;
   object_class.parent = parent;
   if (parent) object_class.attributes = fom_.at(parent).attributes;
-  Node definition;
-  for (const Node& node : group.nodes) {
-    if (!node.child("attribute")) continue;  // a scaffold
-    if (definition) require_same_members(definition, node, "attribute");
-    else definition = node;
-  }
-  for (const Node& attribute : definition.children("attribute")) {
-    if (text(attribute, "name") == "HLAprivilegeToDeleteObject") continue;  // every object has it
-    modules_.require_unreserved({text(attribute, "name"), {attribute}});
-    add_member(object_class.attributes, read_attribute(attribute, object_class), attribute, front);
+  for (const Group& attribute : members_of(group, "attribute")) {
+    const Node& node = attribute.nodes.front();
+    modules_.require_unreserved(attribute);
+    add_member(object_class.attributes, read_attribute(node, object_class), node, front);
   }
   const auto handle = add_class<ObjectClassHandle>(fom_.object_classes_, std::move(object_class),
                                                    front, "object classes");
@@ -212,25 +289,17 @@ void FomReader::read_interaction_class(const Group& group, InteractionClassHandl
   interaction_class.name = group.name;
   interaction_class.parent = parent;
   if (parent) interaction_class.parameters = fom_.at(parent).parameters;
-  Node definition;
-  for (const Node& node : group.nodes) {
-    if (!node.child("parameter") && !node.child("transportation") && !node.child("order") &&
-        !node.child("dimensions"))
-      continue;  // a scaffold
-    if (!definition) definition = node;
-    if (definition == node) continue;
-    require_same_members(definition, node, "parameter");
-    for (const char* element : {"transportation", "order", "dimensions"})
-      modules_.require_same_child(definition, node, element);
+  if (parent) {  // the standard says how interactions of the root travel, and nobody sends any
+    const Node definition = transport_of(group);
+    interaction_class.transportation = transportation(definition);
+    interaction_class.order = order(definition);
+    interaction_class.dimensions = dimensions_of(definition);
   }
-  if (!definition) definition = front;
-  interaction_class.transportation = transportation(definition);
-  interaction_class.order = order(definition);
-  interaction_class.dimensions = dimensions_of(definition);
-  for (const Node& parameter : definition.children("parameter")) {
-    modules_.require_unreserved({text(parameter, "name"), {parameter}});
+  for (const Group& parameter : members_of(group, "parameter")) {
+    const Node& node = parameter.nodes.front();
+    modules_.require_unreserved(parameter);
     add_member(interaction_class.parameters,
-               read_member(parameter, interaction_class.parameters, group.name), parameter, front);
+               read_member(node, interaction_class.parameters, group.name), node, front);
   }
   const auto handle = add_class<InteractionClassHandle>(
       fom_.interaction_classes_, std::move(interaction_class), front, "interaction classes");
@@ -248,8 +317,9 @@ Member FomReader::read_member(const Node& node, const std::vector<Member>& other
   for (const Member& other : others)
     if (other.name == member.name)
       fail(node, path(node) + " is declared twice in class '" + owner + "' or what it inherits");
-  member.data_type = text(node, "dataType");
-  member.size = types_.size_of(member.data_type, node);
+  member.data_type = modules_.text_or(node, "dataType", "NA");
+  if (member.data_type == "NA") member.data_type.clear();  // octets that only federates understand
+  else member.size = types_.size_of(member.data_type, node);
   return member;
 }
 
@@ -258,8 +328,9 @@ void FomReader::add_member(std::vector<Member>& members, Member member, const No
                            const Node& owner) const {
   constexpr bool is_attribute = std::is_same_v<Member, Attribute>;
   constexpr std::size_t most = is_attribute ? named_attribute_max : parameter_max;
-  members.push_back(std::move(member));
-  if (members.size() > most)
+  if constexpr (is_attribute) add_attribute(members, std::move(member));
+  else members.push_back(std::move(member));
+  if (members.size() > (is_attribute ? attribute_max : parameter_max))
     fail(node, path(owner) + " has more than " + std::to_string(most) +
                    (is_attribute ? " attributes" : " parameters"));
 }

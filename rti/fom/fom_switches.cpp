@@ -21,11 +21,15 @@ constexpr std::array known_switches = {
     Switch{"objectClassRelevanceAdvisory", &FomSwitches::object_class_relevance_advisory},
     Switch{"interactionRelevanceAdvisory", &FomSwitches::interaction_relevance_advisory},
 };
-/// Switches that may only be off: the RTI does not convey regions of updates and interactions, does
-/// not report services and exceptions, and has no delayed evaluation of subscriptions.
+/// Switches that stay off whatever a model says: the RTI does not convey regions of updates and
+/// interactions, does not report services and exceptions, and has no delayed evaluation of
+/// subscriptions.
 constexpr std::array never_on = {"conveyRegionDesignatorSets", "serviceReporting",
                                  "exceptionReporting", "delaySubscriptionEvaluation"};
-/// This switch may only be on: the sender of an interaction is always conveyed.
+/// Those of IEEE 1516.2-2025 alone, whatever their value.
+constexpr std::array of_2025 = {"nonRegulatedGrant", "advisoriesUseKnownClass", "allowRelaxedDDM",
+                                "sendServiceReportsToFile"};
+/// This switch stays on: the sender of an interaction is always conveyed.
 constexpr const char* always_on = "conveyProducingFederate";
 constexpr std::array resign_actions = {
     "UnconditionallyDivestAttributes",    "DeleteObjects",
@@ -40,7 +44,7 @@ bool is_enabled(const FomModules& modules, const pugi::xml_node& node) {
   return value == "true";
 }
 
-void read_switch(const FomModules& modules, const pugi::xml_node& node, FomSwitches& switches) {
+void read_switch(FomModules& modules, const pugi::xml_node& node, FomSwitches& switches) {
   const std::string name = node.name();
   if (name == "automaticResignAction") {
     const std::string action = node.attribute("resignAction").value();
@@ -60,14 +64,16 @@ void read_switch(const FomModules& modules, const pugi::xml_node& node, FomSwitc
   }
   if (name == always_on) {
     if (!is_on)
-      modules.fail(
-          node,
-          "<" + name + "> can't be disabled: receivers of an interaction always learn its sender");
+      modules.warn(node, "<" + name +
+                             "> stays on: receivers of an interaction always learn its "
+                             "sender");
     return;
   }
+  if (std::ranges::find(of_2025, name) != of_2025.end())
+    return modules.warn(node, "<" + name + "> has no effect");
   if (std::ranges::find(never_on, name) == never_on.end())
     modules.fail(node, "<switches> holds <" + name + ">, which is no switch of the standard");
-  if (is_on) modules.fail(node, "<" + name + "> can't be enabled: this RTI does not do that");
+  if (is_on) modules.warn(node, "<" + name + "> stays off: this RTI does not do that");
 }
 
 }  // namespace
@@ -79,7 +85,7 @@ std::string FomSwitches::text() const {
   return bits + std::to_string(static_cast<unsigned>(automatic_resign_action));
 }
 
-FomSwitches read_switches(const FomModules& modules) {
+FomSwitches read_switches(FomModules& modules) {
   FomSwitches switches;
   const std::vector<pugi::xml_node> tables = modules.sections("switches");
   for (const pugi::xml_node& table : tables)

@@ -1,4 +1,4 @@
-// The switches table of an object model (IEEE 1516.2-2010, 4.10): how a federation execution
+// The switches table of an object model (IEEE 1516.2-2010, 4.12): how a federation execution
 // begins.
 #pragma once
 
@@ -22,8 +22,8 @@ struct FomSwitches {
   std::string text() const;
 };
 
-/// Throws `FileError`: a switch that is unknown or neither true nor false, one that two modules set
-/// differently, or one that asks for what this RTI does not do.
-FomSwitches read_switches(const FomModules& modules);
+/// Throws `FileError`: a switch that is unknown or neither true nor false, or one that two modules
+/// set differently. A switch that asks for what this RTI does not do is a warning.
+FomSwitches read_switches(FomModules& modules);
 
 }  // namespace rink::rti

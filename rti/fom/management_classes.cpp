@@ -114,12 +114,13 @@ ObjectClassHandle append(std::vector<ObjectClass>& classes, ObjectClassHandle pa
   added.parent = parent;
   added.attributes = classes[parent.value].attributes;
   for (const Member& each : members) {
-    Attribute& attribute = added.attributes.emplace_back();
+    Attribute attribute;
     attribute.name = each.name;
     attribute.data_type = each.data_type;
     attribute.size = size_of(each);
+    add_attribute(added.attributes, std::move(attribute));
   }
-  if (added.attributes.size() > named_attribute_max)
+  if (added.attributes.size() > attribute_max)
     throw FileError("HLAobjectRoot has " + std::to_string(classes[parent.value].attributes.size()) +
                     " attributes, which leaves no room for those of " + added.name);
   classes.push_back(std::move(added));

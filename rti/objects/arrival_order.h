@@ -65,14 +65,11 @@ class ArrivalOrder {
     if (place == nullptr) return {};
     AttributeSet accepted;
     const AttributeSet best_effort = best_effort_[object_class];
-    for (std::uint32_t bits = (set & best_effort).bits; bits != 0; bits &= bits - 1) {
-      const auto attribute = static_cast<std::uint32_t>(std::countr_zero(bits));
-      std::uint64_t& newest =
-          newest_[*place * stride_ + static_cast<std::size_t>(std::popcount(
-                                         best_effort.bits & ((1u << attribute) - 1)))];
+    for (const AttributeHandle attribute : set& best_effort) {
+      std::uint64_t& newest = newest_[*place * stride_ + best_effort.rank(attribute)];
       if (order < newest) continue;
       newest = order;
-      accepted.insert({attribute});
+      accepted.insert(attribute);
     }
     return accepted;
   }

@@ -134,8 +134,10 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
   Object& object = objects_[slot];
   const Layout& layout = layouts_[object.object_class];
   const ObjectClass& object_class = fom_.object_classes()[object.object_class];
-  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
+  for (auto next = set.begin(); next != set.end();) {
+    const AttributeHandle each = *next;
+    const std::uint32_t index = each.value;
+    ++next;
     const Attribute& attribute = object_class.attributes[index];
     std::size_t size = 0;
     if (is_fixed(attribute)) {
@@ -143,8 +145,8 @@ void ObjectTable::store(ObjectSlot slot, AttributeSet set, Bytes coded) {
       assert(size <= coded.size());
       if (size != 0) std::memcpy(object.fixed.data() + layout.offsets[index], coded.data(), size);
     } else {
-      const AttributeSet one(1u << index);
-      size = bits == one.bits
+      const AttributeSet one{each};
+      size = next == set.end()
                  ? coded.size()
                  : coded_size(object_class, one, coded).value_or(0);  // the last one takes the rest
       object.varying[index].assign(coded.begin(),
@@ -173,8 +175,8 @@ void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byt
   assert(object.valued.includes(set));
   const Layout& layout = layouts_[object.object_class];
   const ObjectClass& object_class = fom_.object_classes()[object.object_class];
-  for (std::uint32_t bits = set.bits; bits != 0; bits &= bits - 1) {
-    const auto index = static_cast<std::size_t>(std::countr_zero(bits));
+  for (const AttributeHandle each : set) {
+    const std::size_t index = each.value;
     const Attribute& attribute = object_class.attributes[index];
     const Bytes value = is_fixed(attribute)
                             ? Bytes(object.fixed).subspan(layout.offsets[index], *attribute.size)

@@ -2,7 +2,6 @@
 #include "rti/objects/spared_values.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 
 #include "im/basics/checked.h"
@@ -21,8 +20,7 @@ SparedValues::Spared& SparedValues::keep(ObjectHandle object, ObjectClassHandle 
     spared.values.resize(count);
     spared.times.resize(count);
   }
-  for (std::uint32_t bits = attributes.bits; bits != 0; bits &= bits - 1) {
-    const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+  for (const AttributeHandle attribute : attributes) {
     const Bytes value = fom_.value(object_class, attributes, attribute, values);
     spared.values[attribute.value].assign(value.begin(), value.end());
     spared.times[attribute.value] = time;

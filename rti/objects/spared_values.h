@@ -39,7 +39,7 @@ class SparedValues {
   Spared& keep(ObjectHandle object, ObjectClassHandle object_class, AttributeSet attributes,
                Bytes values, double time);
   /// Forgets values of `attributes`, which were sent otherwise or are no longer wanted.
-  void forget(ObjectHandle object, AttributeSet attributes = AttributeSet(~0u));
+  void forget(ObjectHandle object, AttributeSet attributes = AttributeSet::all());
   const Spared* find(ObjectHandle object) const { return objects_.find(object); }
   /// The objects of a class, or of all, that have values of `attributes` here, in ascending order.
   std::vector<ObjectHandle> list(ObjectClassHandle object_class, AttributeSet attributes) const;

@@ -3,6 +3,9 @@
 
 #include <cassert>
 
+#include "rti/wire/federation_messages.h"
+#include "rti/wire/membership_messages.h"
+
 namespace rink::rti {
 
 namespace {
@@ -122,6 +125,18 @@ void FederationHost::flush() {
   HostOutlet outlet(*this);
   core_.flush(outlet);
   for (const auto& port : ports_) port->transport().push();
+}
+
+void FederationHost::close_all(std::string_view why) {
+  const std::vector<std::byte> words = framed(ExpelledMessage{why});
+  const Bytes frame(words);
+  for (const Route& route : routes_) {
+    if (route.port == nullptr) continue;
+    Transport& transport = route.port->transport();
+    transport.send(route.connection, std::span(&frame, 1));
+    transport.push();
+    transport.close(route.connection);
+  }
 }
 
 }  // namespace rink::rti

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rti/central_component.h"
@@ -31,6 +32,9 @@ class FederationHost {
   void match() { core_.match(); }
   /// Sends one write per destination, and closes the connections that the execution drops.
   void flush();
+  /// Tells every federate why the RTI ends, in at most 255 bytes, and closes all connections once
+  /// that is on its way.
+  void close_all(std::string_view why);
 
   /// Sum over the transports' connections, closed ones included.
   std::uint64_t closed_by_full_queue() const { return closed_by_full_queue_; }

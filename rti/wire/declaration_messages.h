@@ -13,24 +13,24 @@ namespace rink::rti {
 struct PublishObjectClassMessage {
   static constexpr MessageKind kind = MessageKind::publish_object_class;
   std::uint16_t object_class = 0;
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, PublishObjectClassMessage& message) {
-  return stream.number(message.object_class) && stream.number(message.attributes);
+  return stream.number(message.object_class) && attribute_word(stream, message.attributes);
 }
 
 /// An empty set withdraws; `region` is all ones for the default region.
 struct SubscribeObjectClassMessage {
   static constexpr MessageKind kind = MessageKind::subscribe_object_class;
   std::uint16_t object_class = 0;
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
   std::uint32_t region = RegionHandle::none;
   std::uint8_t is_passive = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, SubscribeObjectClassMessage& message) {
-  return stream.number(message.object_class) && stream.number(message.attributes) &&
+  return stream.number(message.object_class) && attribute_word(stream, message.attributes) &&
          stream.number(message.region) && stream.range(message.is_passive, 1);
 }
 
@@ -55,14 +55,14 @@ struct ClassRelevanceMessage {
   static constexpr MessageKind kind = MessageKind::class_relevance;
   std::uint8_t is_interaction = 0;
   std::uint16_t number = 0;  ///< of the object or interaction class
-  std::uint32_t subscribed = 0,
+  AttributeBits subscribed = 0,
                 active = 0;  ///< attributes; 0 or 1 for an interaction class. `active`:
                              ///< of those by subscriptions that are not passive
 };
 template <class Stream>
 bool exchange(Stream& stream, ClassRelevanceMessage& message) {
   return stream.range(message.is_interaction, 1) && stream.varint(message.number) &&
-         stream.varint(message.subscribed) && stream.varint(message.active);
+         attribute_bits(stream, message.subscribed) && attribute_bits(stream, message.active);
 }
 
 /// An object and some of its attributes. Downwards: attributes of an own object that are in some
@@ -72,11 +72,11 @@ template <MessageKind k>
 struct ObjectAttributesMessage {
   static constexpr MessageKind kind = k;
   std::uint32_t object = 0;
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, ObjectAttributesMessage<k>& message) {
-  return stream.varint(message.object) && stream.varint(message.attributes);
+  return stream.varint(message.object) && attribute_bits(stream, message.attributes);
 }
 using ObjectRelevanceMessage = ObjectAttributesMessage<MessageKind::object_relevance>;
 using SpareUpdateMessage = ObjectAttributesMessage<MessageKind::spare_update>;

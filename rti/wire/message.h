@@ -14,6 +14,7 @@
 #include "rti/handles.h"
 #include "rti/hla_error.h"
 #include "rti/types.h"
+#include "rti/wire/attribute_bits.h"
 #include "rti/wire/frame.h"
 #include "rti/wire/stream.h"
 
@@ -214,11 +215,11 @@ bool exchange(Stream& stream, StampMessage& message) {
 struct UpdatesMessage {
   static constexpr MessageKind kind = MessageKind::updates;
   std::uint16_t object_class = 0;
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, UpdatesMessage& message) {
-  return stream.varint(message.object_class) && stream.varint(message.attributes);
+  return stream.varint(message.object_class) && attribute_bits(stream, message.attributes);
 }
 
 /// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the

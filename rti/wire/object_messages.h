@@ -58,13 +58,13 @@ struct RequestUpdateMessage {
   static constexpr MessageKind kind = MessageKind::request_update;
   std::uint8_t is_class = 0;
   std::uint32_t number = 0;  ///< the class, or the object's handle
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
   Bytes tag;
 };
 template <class Stream>
 bool exchange(Stream& stream, RequestUpdateMessage& message) {
   return stream.range(message.is_class, 1) && stream.varint(message.number) &&
-         stream.varint(message.attributes) &&
+         attribute_bits(stream, message.attributes) &&
          stream.template bytes<std::uint16_t>(message.tag, request_tag_max);
 }
 
@@ -74,13 +74,13 @@ struct ChangeTransportationMessage {
   static constexpr MessageKind kind = MessageKind::change_transportation;
   std::uint8_t is_interaction = 0;
   std::uint32_t number = 0;      ///< the object's handle, or the class
-  std::uint32_t attributes = 0;  ///< 0 for interactions
+  AttributeBits attributes = 0;  ///< 0 for interactions
   std::uint8_t transportation = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, ChangeTransportationMessage& message) {
   return stream.range(message.is_interaction, 1) && stream.varint(message.number) &&
-         stream.varint(message.attributes) && stream.range(message.transportation, 1);
+         attribute_bits(stream, message.attributes) && stream.range(message.transportation, 1);
 }
 
 /// Asks for the transportation type of an attribute, or of the interactions that a federate sends
@@ -102,14 +102,14 @@ struct TransportationMessage {
   static constexpr MessageKind kind = MessageKind::transportation;
   std::uint8_t is_interaction = 0, is_confirmation = 0;
   std::uint32_t number = 0;
-  std::uint32_t which =
+  AttributeBits which =
       0;  ///< of a confirmation the attributes, of an answer the attribute or the federate
   std::uint8_t transportation = 0;
 };
 template <class Stream>
 bool exchange(Stream& stream, TransportationMessage& message) {
   return stream.range(message.is_interaction, 1) && stream.range(message.is_confirmation, 1) &&
-         stream.varint(message.number) && stream.varint(message.which) &&
+         stream.varint(message.number) && attribute_bits(stream, message.which) &&
          stream.range(message.transportation, 1);
 }
 

@@ -43,12 +43,12 @@ template <MessageKind k, std::uint8_t word_max>
 struct OwnershipMessage {
   static constexpr MessageKind kind = k;
   std::uint8_t word = 0;  ///< an OwnershipRequest upwards, an OwnershipNotice downwards
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
   Bytes tag;
 };
 template <class Stream, MessageKind k, std::uint8_t word_max>
 bool exchange(Stream& stream, OwnershipMessage<k, word_max>& message) {
-  return stream.range(message.word, word_max) && stream.varint(message.attributes) &&
+  return stream.range(message.word, word_max) && attribute_bits(stream, message.attributes) &&
          message.attributes != 0 &&
          stream.template bytes<std::uint16_t>(message.tag, ownership_tag_max);
 }

@@ -94,17 +94,37 @@ bool exchange(Stream& stream, ModifyRangesMessage& message) {
          stream.rest(message.ranges, message.count * ModifyRangesMessage::range_size);
 }
 
-/// Attributes and a region that they are updated or subscribed in.
+/// Attributes, all of one page of 32, and a region that they are updated or subscribed in. Records
+/// have one size, so that what holds many need not be read to find its end.
 struct AttributeRegionRecord {
-  std::uint32_t attributes = 0;
+  static constexpr unsigned page_size = 32, page_max = AttributeSet::capacity / page_size - 1;
+  AttributeBits attributes = 0;
   std::uint32_t region = 0;
+
+  /// The part of a set that one record holds.
+  static AttributeSet page(AttributeSet attributes, unsigned page) {
+    return attributes & AttributeSet(AttributeBits{0xffffffffu} << page_size * page);
+  }
 };
 template <class Stream>
 bool exchange(Stream& stream, AttributeRegionRecord& record) {
-  return stream.number(record.attributes) && stream.range(record.region, region_max - 1);
+  constexpr unsigned page_size = AttributeRegionRecord::page_size;
+  std::uint32_t page = record.attributes == 0 ? 0 : lowest_bit(record.attributes) / page_size;
+  auto word = static_cast<std::uint32_t>(record.attributes >> page_size * page);
+  assert(Stream::is_reading || AttributeBits{word} << page_size * page == record.attributes);
+  std::uint32_t place = page * region_max + record.region;
+  if (!stream.number(word) ||
+      !stream.range(place, (AttributeRegionRecord::page_max + 1) * region_max - 1))
+    return false;
+  if constexpr (Stream::is_reading) {
+    page = place / region_max;
+    record.region = place % region_max;
+    record.attributes = AttributeBits{word} << page_size * page;
+  }
+  return record.attributes >> attribute_max == 0;
 }
 
-/// `pairs` are, `count` times, attributes u32 and region u32.
+/// `pairs` are, `count` times, an AttributeRegionRecord.
 struct RegionalClassMessage {
   static constexpr MessageKind kind = MessageKind::regional_class;
   static constexpr std::size_t pair_size = 4 + 4;
@@ -155,12 +175,12 @@ bool exchange(Stream& stream, AssociateRegionsMessage& message) {
 struct ProvideUpdateMessage {
   static constexpr MessageKind kind = MessageKind::provide_update;
   std::uint32_t object = 0;
-  std::uint32_t attributes = 0;
+  AttributeBits attributes = 0;
   Bytes tag;
 };
 template <class Stream>
 bool exchange(Stream& stream, ProvideUpdateMessage& message) {
-  return stream.varint(message.object) && stream.varint(message.attributes) &&
+  return stream.varint(message.object) && attribute_bits(stream, message.attributes) &&
          stream.template bytes<std::uint16_t>(message.tag, 1024);
 }
 

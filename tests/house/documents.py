@@ -18,7 +18,7 @@ HOPS_MAX, FUNCTIONS_TO_BAT_MAX = 12, 30
 
 # Those whose every name in `code` is one of the sources, and those whose samples of C++ are compiled elsewhere.
 PAGES_OF_NAMES = ("docs/architecture.md", "docs/key-press.md")
-PAGES_OF_SAMPLES = ("docs/start-federate.md", "docs/start-scheme.md")
+PAGES_OF_SAMPLES = ("docs/start-federate.md", "docs/start-scheme.md", "docs/hla.md")
 
 CODE_FOLDERS = ("bench", "game", "im", "loadgen", "rti", "tests")
 FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)

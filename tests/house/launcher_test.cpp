@@ -110,7 +110,7 @@ TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
   for (const char* words : {"", "help", "--help", "-h"}) {
     EXPECT_EQ(run(words), 0) << words;
     for (const char* command :
-         {"play", "compare", "test", "serve", "peer", "duel", "bots", "simulate", "replay",
+         {"play", "compare", "test", "serve", "rti", "peer", "duel", "bots", "simulate", "replay",
           "accuracy", "bench", "results", "package", "setup"})
       EXPECT_THAT(printed_, HasSubstr("\n  " + std::string(command) + " ")) << words;
     EXPECT_THAT(calls_, IsEmpty()) << words;
@@ -129,6 +129,7 @@ TEST_F(Launcher, BuildsWhatACommandNeedsAndHandsItTheArguments) {
   const std::map<std::string, std::string> targets{{"compare", "rink-compare rink-serve rink-bots"},
                                                    {"play", "rink-play rink-serve"},
                                                    {"serve", "rink-serve"},
+                                                   {"rti", "rink-rti"},
                                                    {"bots", "rink-bots"},
                                                    {"duel", "rink-duel"},
                                                    {"peer", "rink-peer"},
@@ -150,7 +151,7 @@ TEST_F(Launcher, MeasuresWithoutAsserts) {
 }
 
 TEST_F(Launcher, EndsWithTheStatusOfItsCommand) {
-  for (const char* command : {"compare", "play", "serve", "peer", "duel", "bots", "simulate",
+  for (const char* command : {"compare", "play", "serve", "rti", "peer", "duel", "bots", "simulate",
                               "replay", "accuracy", "bench", "test", "results"})
     EXPECT_EQ(run(command, "STATUS=17"), 17) << command;
 }

@@ -125,6 +125,7 @@ const Names divisions{"im/matching/index",       "rti/transport/tcp",
                       "rti/transport/staged",    "game/net/server/players",
                       "game/peer/session",       "game/peer/standby",
                       "game/replication/exact",  "game/peer/window",
+                      "game/apps/rti",           "game/net/server/overload",
                       "game/net/peer/network",   "game/net/peer/ranks",
                       "game/net/peer/interest",  "game/node/match",
                       "game/physics/rounding",   "game/node/recovery",
@@ -133,8 +134,7 @@ const Names divisions{"im/matching/index",       "rti/transport/tcp",
                       "loadgen/run/nodes",       "loadgen/run/peers",
                       "loadgen/run/saturation",  "loadgen/measure/statistics",
                       "loadgen/measure/tables",  "loadgen/measure/truth",
-                      "loadgen/report/sections", "loadgen/report/plots",
-                      "game/net/server/overload"};
+                      "loadgen/report/sections", "loadgen/report/plots"};
 
 const Names network_headers{"asio",    "sys/socket.h", "netinet/", "arpa/inet.h",
                             "netdb.h", "sys/epoll.h",  "mpi.h"};

@@ -87,13 +87,15 @@ TEST(ManagementObjectModel, NoFederatesModelRedefinesIt) {
   EXPECT_EQ(complaint("<objectModel><objects><objectClass><name>HLAobjectRoot</"
                       "name>\n<objectClass><name>HLAmanager</name></objectClass></objectClass></"
                       "objects></objectModel>"),
-            "own.xml:2: <objectClass> 'HLAmanager': names that begin with HLA are the standard's");
+            "own.xml:2: <objectClass> 'HLAmanager': names that begin with HLA are the standard's "
+            "(IEEE 1516.2-2010, 4.2)");
   EXPECT_EQ(
       complaint(
           "<objectModel><objects/><interactions><interactionClass><name>HLAinteractionRoot</"
           "name>\n<interactionClass><name>HLAmanager</name></interactionClass></interactionClass>"
           "</interactions></objectModel>"),
-      "own.xml:2: <interactionClass> 'HLAmanager': names that begin with HLA are the standard's");
+      "own.xml:2: <interactionClass> 'HLAmanager': names that begin with HLA are the standard's "
+      "(IEEE 1516.2-2010, 4.3)");
 }
 
 TEST(ManagementObjectModel, StandsBehindAModelsOwnClassesAndIsNoPartOfItsHash) {

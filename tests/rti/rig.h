@@ -252,7 +252,8 @@ class Recorder : public FederateAmbassador {
   }
   struct OwnershipNote {
     std::string what;
-    std::uint32_t object, attributes;
+    std::uint32_t object;
+    AttributeBits attributes;
     std::string tag;
     friend bool operator==(const OwnershipNote&, const OwnershipNote&) = default;
   };

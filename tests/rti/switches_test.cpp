@@ -11,6 +11,8 @@ std::string with_switches(const std::string& switches, std::string xml = harbour
   return xml.insert(xml.find("<objects>"), "<switches>" + switches + "</switches>");
 }
 
+const std::string clause = " (IEEE 1516.2-2010, 4.12)";
+
 TEST(Switches, SayHowAFederationBegins) {
   const Fom fom = Fom::parse(
       with_switches(
@@ -46,18 +48,36 @@ TEST(Switches, AreRefusedByLineAndElement) {
                                 '\n') +
                      1);
   const std::string at = "s.xml:" + harbour_line + ": ";
-  EXPECT_EQ(complaint(R"(<autoProvide isEnabled="yes"/>)"),
-            at + "<autoProvide> of <switches> has isEnabled \"yes\"; allowed are true, false");
+  EXPECT_EQ(
+      complaint(R"(<autoProvide isEnabled="yes"/>)"),
+      at + "<autoProvide> of <switches> has isEnabled \"yes\"; allowed are true, false" + clause);
   EXPECT_EQ(complaint(R"(<autopilot isEnabled="true"/>)"),
-            at + "<switches> holds <autopilot>, which is no switch of the standard");
-  EXPECT_EQ(complaint(R"(<serviceReporting isEnabled="true"/>)"),
-            at + "<serviceReporting> can't be enabled: this RTI does not do that");
-  EXPECT_EQ(complaint(R"(<conveyProducingFederate isEnabled="false"/>)"),
-            at + "<conveyProducingFederate> can't be disabled: receivers of an interaction "
-                 "always learn its sender");
+            at + "<switches> holds <autopilot>, which is no switch of the standard" + clause);
   EXPECT_EQ(complaint(R"(<automaticResignAction resignAction="Explode"/>)"),
-            at + "<automaticResignAction> of <switches> has resignAction \"Explode\"; allowed are "
-                 "the standard's, such as CancelThenDeleteThenDivest");
+            at +
+                "<automaticResignAction> of <switches> has resignAction \"Explode\"; allowed are "
+                "the standard's, such as CancelThenDeleteThenDivest" +
+                clause);
+}
+
+/// Published models set all switches: one that asks for what this RTI does not do is warned of.
+TEST(Switches, ThatCannotBeHonouredAreWarnedOf) {
+  const auto warnings_of = [](const std::string& switches) {
+    return Fom::parse(with_switches(switches), "s.xml").warnings();
+  };
+  EXPECT_EQ(
+      warnings_of(R"(<serviceReporting isEnabled="true"/>)"),
+      std::vector{"s.xml:4: <serviceReporting> stays off: this RTI does not do that" + clause});
+  EXPECT_EQ(warnings_of(R"(<conveyProducingFederate isEnabled="false"/>)"),
+            std::vector{"s.xml:4: <conveyProducingFederate> stays on: receivers of an interaction "
+                        "always learn its sender" +
+                        clause});
+  EXPECT_EQ(warnings_of(R"(<nonRegulatedGrant isEnabled="true"/>)"),
+            std::vector{"s.xml:4: <nonRegulatedGrant> has no effect" + clause});
+  EXPECT_EQ(warnings_of(R"(<serviceReporting isEnabled="false"/>)"), std::vector<std::string>());
+  EXPECT_EQ(Fom::parse(with_switches(R"(<serviceReporting isEnabled="true"/>)"), "s.xml").hash(),
+            harbour().hash())
+      << "what has no effect is no difference";
 }
 
 TEST(Switches, OfTwoModulesMustAgree) {

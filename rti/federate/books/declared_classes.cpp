@@ -11,7 +11,7 @@ void DeclaredClasses::publish(ObjectClassHandle object_class, AttributeSet attri
   declared.published = attributes;
   if (attributes.is_empty()) declared.is_relevant = false;
   declared.others = {attributes.is_empty()
-                         ? AttributeSet(~0u)
+                         ? AttributeSet::all()
                          : AttributeSet(declared.others.subscribed.bits | ~attributes.bits),
                      declared.others.active & attributes};
 }

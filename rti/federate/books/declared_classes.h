@@ -53,7 +53,7 @@ class DeclaredClasses {
  private:
   struct Class {
     AttributeSet published;  ///< 1 for an interaction class
-    Subscription others{AttributeSet(~0u), {}};
+    Subscription others{AttributeSet::all(), {}};
     bool is_relevant = false;  ///< as the federate was last notified
   };
   static std::optional<bool> turn(Class& declared, bool is_on);

@@ -1,7 +1,6 @@
 // Reads blocks of updates, object by object.
 #include "rti/federate/delivery/update_receiver.h"
 
-#include <bit>
 #include <cassert>
 
 #include "rti/fom/coded_values.h"
@@ -99,9 +98,8 @@ bool UpdateReceiver::reflect_datagram(const Block& block, ObjectHandle object,
 /// Returns the values of `accepted` alone.
 Bytes UpdateReceiver::choose(const Block& block, AttributeSet accepted, Bytes values) {
   chosen_.clear();
-  for (std::uint32_t bits = accepted.bits; bits != 0; bits &= bits - 1) {
-    const Bytes value = coded_value(block.object_class, block.attributes,
-                                    {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
+  for (const AttributeHandle attribute : accepted) {
+    const Bytes value = coded_value(block.object_class, block.attributes, attribute, values);
     chosen_.insert(chosen_.end(), value.begin(), value.end());
   }
   return chosen_;

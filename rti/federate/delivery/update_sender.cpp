@@ -99,12 +99,12 @@ void UpdateSender::release(ObjectClassHandle object_class) {
   if (!outbox_) return;
   for (const ObjectHandle object : outbox_->list())
     if (outbox_->find(object)->object_class == object_class.value)
-      release(object, AttributeSet(~0u));
+      release(object, AttributeSet::all());
 }
 
 void UpdateSender::release_all() {
   if (!outbox_) return;
-  for (const ObjectHandle object : outbox_->list()) release(object, AttributeSet(~0u));
+  for (const ObjectHandle object : outbox_->list()) release(object, AttributeSet::all());
 }
 
 void UpdateSender::keep_time() {
@@ -124,7 +124,7 @@ void UpdateSender::make_best_effort(ObjectHandle object, AttributeSet attributes
 
 void UpdateSender::forget(ObjectHandle object) {
   made_reliable_.erase(object);
-  if (outbox_) outbox_->forget(object, AttributeSet(~0u));
+  if (outbox_) outbox_->forget(object, AttributeSet::all());
 }
 
 void UpdateSender::repair() {

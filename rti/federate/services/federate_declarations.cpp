@@ -42,7 +42,7 @@ void FederateDeclarations::publish(ObjectClassHandle object_class, AttributeSet 
                        "class " + basis_.fom.at(object_class).name + " is the RTI's to publish");
   const AttributeSet withdrawn = uses_.classes.published(object_class).without(attributes);
   if (!withdrawn.is_empty()) {
-    uses_.sparing.release(object_class, AttributeSet(~0u));
+    uses_.sparing.release(object_class, AttributeSet::all());
     uses_.sender.release(object_class);
   }
   uses_.ownership.withdraw(object_class, withdrawn, attributes.is_empty());

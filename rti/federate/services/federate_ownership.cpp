@@ -9,7 +9,7 @@ void FederateOwnership::ask(OwnershipRequest request, ObjectHandle object, Attri
                             Bytes tag) {
   if (attributes.is_empty()) return;
   uses_.sparing.release(object);
-  uses_.sender.release(object, AttributeSet(~0u));
+  uses_.sender.release(object, AttributeSet::all());
   require(tag.size() <= ownership_tag_max, HlaError::rti_internal_error, object,
           "a tag of an ownership service has at most 1,024 bytes");
   basis_.frames.enqueue_in_block(

@@ -2,7 +2,6 @@
 #include "rti/federate/services/federate_regions.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 
 #include "rti/federate/books/require.h"
@@ -16,15 +15,20 @@ void FederateRegions::for_each_message(std::span<const AttributeRegions> pairs, 
   records_.clear();
   Writer writer(records_);
   std::uint16_t count = 0;
+  const auto add = [&](AttributeSet attributes, RegionHandle region) {
+    AttributeRegionRecord record{attributes.bits, uses_.book.number(region)};
+    exchange(writer, record);
+    if (++count < regions_per_message_max) return;
+    send(count);
+    records_.clear();
+    count = 0;
+  };
   for (const AttributeRegions& each : pairs)
-    for (const RegionHandle region : each.regions) {
-      AttributeRegionRecord record{each.attributes.bits, uses_.book.number(region)};
-      exchange(writer, record);
-      if (++count < regions_per_message_max) continue;
-      send(count);
-      records_.clear();
-      count = 0;
-    }
+    for (const RegionHandle region : each.regions)
+      for (unsigned page = 0; page <= AttributeRegionRecord::page_max; ++page)
+        if (const AttributeSet part = AttributeRegionRecord::page(each.attributes, page);
+            !part.is_empty() || (page == 0 && each.attributes.is_empty()))
+          add(part, region);
   if (count > 0) send(count);
 }
 
@@ -196,9 +200,8 @@ void FederateRegions::check(ObjectClassHandle object_class,
                          "class '" + known.name + "' has not all of these attributes");
     for (const RegionHandle region : each.regions) {
       uses_.book.check(region);
-      for (std::uint32_t bits = each.attributes.bits; bits != 0; bits &= bits - 1) {
-        const Attribute& attribute =
-            known.attributes[static_cast<std::size_t>(std::countr_zero(bits))];
+      for (const AttributeHandle handle : each.attributes) {
+        const Attribute& attribute = known.attributes[handle.value];
         uses_.book.check_context(region, attribute.dimensions,
                                  "attribute '" + attribute.name + "'");
       }

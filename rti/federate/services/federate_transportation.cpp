@@ -40,6 +40,8 @@ bool FederateTransportation::handle_answer(Reader& reader) {
   if (!exchange(reader, message)) return false;
   const auto transportation = static_cast<Transportation>(message.transportation);
   const bool is_confirmation = message.is_confirmation != 0;
+  const auto handle = static_cast<std::uint32_t>(message.which);  // in an answer
+  if (!is_confirmation && handle != message.which) return false;
   if (message.is_interaction != 0) {
     if (message.number >= basis_.fom.interaction_classes().size()) return false;
     const InteractionClassHandle interaction_class{message.number};
@@ -47,7 +49,7 @@ bool FederateTransportation::handle_answer(Reader& reader) {
       basis_.callbacks.confirm_interaction_transportation_type_change(interaction_class,
                                                                       transportation);
     else
-      basis_.callbacks.report_interaction_transportation_type({message.which}, interaction_class,
+      basis_.callbacks.report_interaction_transportation_type({handle}, interaction_class,
                                                               transportation);
     return true;
   }
@@ -56,14 +58,13 @@ bool FederateTransportation::handle_answer(Reader& reader) {
   if (known == nullptr) return uses_.objects.is_gone(object);
   const AttributeSet all = basis_.fom.attributes(ObjectClassHandle{known->object_class});
   const AttributeSet confirmed(message.which);
-  if (is_confirmation ? !all.includes(confirmed) : !all.contains({message.which})) return false;
+  if (is_confirmation ? !all.includes(confirmed) : !all.contains({handle})) return false;
   if (is_confirmation && transportation == Transportation::best_effort)
     uses_.sender.make_best_effort(object, confirmed);
   if (is_confirmation)
     basis_.callbacks.confirm_attribute_transportation_type_change(object, confirmed,
                                                                   transportation);
-  else
-    basis_.callbacks.report_attribute_transportation_type(object, {message.which}, transportation);
+  else basis_.callbacks.report_attribute_transportation_type(object, {handle}, transportation);
   return true;
 }
 

@@ -1,8 +1,6 @@
 // Keeps updates back and releases them.
 #include "rti/federate/services/sparing.h"
 
-#include <bit>
-
 #include "rti/fom/coded_values.h"
 #include "rti/wire/declaration_messages.h"
 
@@ -56,9 +54,9 @@ void Sparing::release(ObjectHandle object) {
     group = {};
   };
   coded_.clear();
-  for (std::uint32_t bits = kept.attributes.bits; bits != 0; bits &= bits - 1) {
-    const auto index = static_cast<std::size_t>(std::countr_zero(bits));
-    const AttributeSet one(1u << index);
+  for (const AttributeHandle attribute : kept.attributes) {
+    const std::size_t index = attribute.value;
+    const AttributeSet one{attribute};
     std::vector<std::byte> value = kept.values[index];
     if (is_coded(object_class, one))
       value.clear(), encode(object_class, one, kept.values[index], kept.times[index], value);

@@ -38,7 +38,7 @@ class Sparing {
   /// newest state with the newest stamp.
   void release(ObjectHandle object);
   void release(ObjectClassHandle object_class, AttributeSet subscribed);
-  void release_all() { release(ObjectClassHandle{}, AttributeSet(~0u)); }
+  void release_all() { release(ObjectClassHandle{}, AttributeSet::all()); }
   /// While bytes wait unread, news of a subscriber would wait too.
   void gate_closed() {
     if (!may_spare()) release_all();

@@ -1,7 +1,6 @@
 // Cuts runs into datagrams, and falls back to the stream where they get no answer.
 #include "rti/federation/delivery/best_effort_sender.h"
 
-#include <bit>
 #include <cassert>
 
 #include "rti/buffering/run_scope.h"
@@ -15,9 +14,8 @@ namespace {
 /// Appends the values of `wanted`, a part of `set`, from those of `set`.
 void cut_values(const ObjectClass& object_class, AttributeSet set, AttributeSet wanted,
                 Bytes values, std::vector<std::byte>& bytes) {
-  for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
-    const Bytes value = coded_value(object_class, set,
-                                    {static_cast<std::uint32_t>(std::countr_zero(bits))}, values);
+  for (const AttributeHandle attribute : wanted) {
+    const Bytes value = coded_value(object_class, set, attribute, values);
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
 }

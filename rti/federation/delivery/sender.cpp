@@ -343,11 +343,10 @@ void Sender::gather_cut_run(const UpdateRun& run, FlushContext& context) {
       block.emplace(bytes);
     }
     block->append(run.object_class, wanted, {run.records[index].handle}, [&] {
-      for (std::uint32_t bits = wanted.bits; bits != 0; bits &= bits - 1) {
-        const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+      wanted.for_each([&](AttributeHandle attribute) {
         const Bytes value = coded_value(object_class, run.attributes, attribute, run.values(index));
         bytes.insert(bytes.end(), value.begin(), value.end());
-      }
+      });
     });
     ++basis_.counters.updates_sent;
   });

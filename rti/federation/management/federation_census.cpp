@@ -55,8 +55,8 @@ std::vector<std::uint32_t> FederationCensus::count_owned() const {
 void FederationCensus::count_owners(ObjectSlot object, std::vector<std::uint32_t>& owned) const {
   std::vector<bool> is_counted(owned.size(), false);
   const ObjectClassHandle object_class{basis_.objects[object].object_class};
-  for (std::uint32_t i = 0; i < basis_.fom.at(object_class).attributes.size(); ++i) {
-    const std::uint32_t owner = ownership_.owner_of(object, {i});
+  for (const AttributeHandle each : basis_.fom.attributes(object_class)) {
+    const std::uint32_t owner = ownership_.owner_of(object, each);
     if (owner >= owned.size() || is_counted[owner]) continue;
     is_counted[owner] = true;
     ++owned[owner];

@@ -123,6 +123,7 @@ void ManagementObjects::begin_values(ObjectClassHandle object_class) {
 
 template <class Write>
 void ManagementObjects::value(Write write) {
+  if (ends_.size() == privilege_to_delete_object.value) ends_.push_back(values_.size());
   write(ManagementWriter(values_));
   ends_.push_back(values_.size());
 }

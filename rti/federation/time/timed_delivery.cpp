@@ -2,7 +2,6 @@
 // they leave.
 #include "rti/federation/time/timed_delivery.h"
 
-#include <bit>
 #include <cassert>
 
 #include "rti/fom/coded_values.h"
@@ -111,8 +110,7 @@ void TimedDelivery::write_update(const StampedMessage& message, AttributeSet att
   write_into(content_, UpdatesMessage{message.class_number, attributes.bits});
   write_handle(content_, 0, message.object);
   const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{message.class_number});
-  for (std::uint32_t bits = attributes.bits; bits != 0; bits &= bits - 1) {
-    const AttributeHandle attribute{static_cast<std::uint32_t>(std::countr_zero(bits))};
+  for (const AttributeHandle attribute : attributes) {
     const Bytes value =
         attributes == message.attributes
             ? Bytes(message.body)

@@ -38,12 +38,12 @@ struct Registrar : Recorder {
     told.push_back("not all " + joined_by_commas(names));
   }
   void provide_attribute_value_update(ObjectHandle object, AttributeSet set, Bytes tag) override {
-    told.push_back("provide " + std::to_string(set.bits) + " of " + std::to_string(object.value) +
-                   " " + text_of(tag));
+    told.push_back("provide " + std::to_string(static_cast<std::uint32_t>(set.bits)) + " of " +
+                   std::to_string(object.value) + " " + text_of(tag));
   }
   void confirm_attribute_transportation_type_change(ObjectHandle, AttributeSet set,
                                                     Transportation type) override {
-    told.push_back("confirmed " + std::to_string(set.bits) + " " +
+    told.push_back("confirmed " + std::to_string(static_cast<std::uint32_t>(set.bits)) + " " +
                    std::string(Ambassador::get_transportation_type_name(type)));
   }
   void report_attribute_transportation_type(ObjectHandle, AttributeHandle attribute,

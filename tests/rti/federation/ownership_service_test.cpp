@@ -16,14 +16,15 @@ namespace {
 struct Told {
   OwnershipNotice notice;
   std::uint32_t object;
-  std::uint32_t attributes;
+  AttributeBits attributes;
   std::string tag;
   friend bool operator==(const Told&, const Told&) = default;
 };
 
 std::ostream& operator<<(std::ostream& stream, const Told& told) {
   return stream << "notice " << int{static_cast<std::uint8_t>(told.notice)} << " of object "
-                << told.object << ", attributes " << told.attributes << " '" << told.tag << "'";
+                << told.object << ", attributes " << static_cast<std::uint32_t>(told.attributes)
+                << " '" << told.tag << "'";
 }
 
 /// Ann has registered a body; Bob publishes bodies and knows it, and Eve knows it only.

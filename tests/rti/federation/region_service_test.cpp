@@ -145,10 +145,10 @@ TEST_F(Chart, AsksOwnersOfWhatOverlapsForItsValues) {
       if (is_deleted) remove(bob, 0);
       objects.requests.settle();
       if (is_deleted) create(bob, 0);
-      std::vector<std::uint32_t> asked;
+      std::vector<AttributeBits> asked;
       for_each_said_to<ProvideUpdateMessage>(
           federate(ann), [&](const auto& message) { asked.push_back(message.attributes); });
-      EXPECT_EQ(asked, is_near ? std::vector{colour.bits} : std::vector<std::uint32_t>())
+      EXPECT_EQ(asked, is_near ? std::vector{colour.bits} : std::vector<AttributeBits>())
           << is_near << is_deleted;
     }
 }

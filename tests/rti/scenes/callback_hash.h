@@ -218,7 +218,7 @@ class CallbackHash : public FederateAmbassador {
   template <class Handle>
   requires requires(const Handle& handle) { handle.value; }
   void add(const Handle& handle) { add(handle.value); }
-  void add(AttributeSet attributes) { add(attributes.bits); }
+  void add(AttributeSet attributes) { add(static_cast<std::uint32_t>(attributes.bits)); }
   void add(Bytes bytes) { add(bytes.size()), hash_.add(bytes); }
   void add(std::string_view text) { add(text.size()), hash_.add(text); }
   void add(const std::string& text) { add(std::string_view(text)); }

@@ -66,7 +66,7 @@ TEST(GreedyPeer, HoweverOftenUpdatesAreRequestedTheirOwnerIsToldOncePerFlush) {
   bare.tick();
   std::vector<std::byte> pairs;
   for (std::size_t i = 0; i < regions_per_message_max; ++i) {
-    const auto pair = values_of(both.bits, std::uint32_t{0});
+    const auto pair = values_of(static_cast<std::uint32_t>(both.bits), std::uint32_t{0});
     pairs.insert(pairs.end(), pair.begin(), pair.end());
   }
   const std::size_t before = bare.witness_bytes;

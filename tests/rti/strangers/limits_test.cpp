@@ -152,7 +152,7 @@ TEST(Limits, SoManyObjectsAreLookedAtForOneFederatesRequestsInOneFlush) {
     for (std::uint32_t k = 0; k < fleet; ++k) bare.witness.register_object_instance(vessel);
     bare.enter(1, "nag");
     for (std::uint32_t region = 0; region < regions; ++region) {
-      const auto pair = values_of(AttributeSet{position}.bits, region);
+      const auto pair = values_of(static_cast<std::uint32_t>(AttributeSet{position}.bits), region);
       bare.execution.receive(
           1, frame_of(CreateRegionMessage{region},
                       RegionalClassMessage{vessel_number,

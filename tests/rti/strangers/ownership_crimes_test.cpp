@@ -123,7 +123,7 @@ TEST(OwnershipBytes, ThatAreMalformedDropTheirSender) {
                   std::uint8_t{0}),  // no attributes
         values_of(std::uint8_t{36}, std::uint8_t{0}, std::uint8_t{3}, std::uint16_t{2000},
                   std::uint8_t{0}),  // a tag too long
-        values_of(std::uint8_t{37}, std::uint8_t{0}, std::uint8_t{32}),
+        values_of(std::uint8_t{37}, std::uint8_t{0}, std::uint8_t{127}),
         values_of(std::uint8_t{38}, std::uint8_t{6})}) {
     Scene scene;
     std::vector<std::byte> framed = values_of(static_cast<std::uint32_t>(bytes.size()));

@@ -96,7 +96,8 @@ TEST(DatagramLedger, OwesWhatNoLaterDatagramSaysAndLetsGoOfEveryList) {
       for (std::size_t number = 1; number < sent.size(); ++number)
         if (!sent[number].is_settled) lose(number);
       ledger.abandon(lost);
-      for (const DatagramLedger::Lost& each : lost) owed[each.handle] |= each.attributes.bits;
+      for (const DatagramLedger::Lost& each : lost)
+        owed[each.handle] |= static_cast<std::uint32_t>(each.attributes.bits);
       EXPECT_EQ(owed, wanted);
       EXPECT_EQ(ledger.unsettled(), 0u);
       EXPECT_FALSE(ledger.acknowledge({static_cast<std::uint32_t>(sent.size()), 0}, now, lost))

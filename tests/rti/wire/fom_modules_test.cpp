@@ -80,35 +80,35 @@ TEST(FomModules, ContradictionsNameBothPlaces) {
   EXPECT_EQ(conflict("<dataType>HLAfloat32LE</dataType></attribute>",
                      "<dataType>HLAfloat64LE</dataType></attribute>"),
             "lights.xml:8: InconsistentFDD: <attribute> 'speed' of class 'Vessel' differs in "
-            "<dataType> from its definition at harbour.xml:8");
+            "<dataType> from its definition at harbour.xml:8 (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(conflict("<order>TimeStamp</order>", "<order>Receive</order>"),
             "lights.xml:10: InconsistentFDD: <attribute> 'destination' of class 'Ferry' differs in "
-            "<order> from its definition at harbour.xml:10");
+            "<order> from its definition at harbour.xml:10 (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(conflict("<dimension>Y</dimension>", ""),
             "lights.xml:7: InconsistentFDD: <attribute> 'position' of class 'Vessel' differs in "
-            "<dimensions> from its definition at harbour.xml:7");
+            "<dimensions> from its definition at harbour.xml:7 (IEEE 1516.2-2010, 4.6)");
   EXPECT_EQ(conflict("<name>speed</name>", "<name>pace</name>"),
             "lights.xml:6: InconsistentFDD: <attribute> 'speed' of class 'Vessel' is missing here; "
-            "it is defined at harbour.xml:8");
+            "it is defined at harbour.xml:8 (IEEE 1516.2-2010, 4.2)");
   EXPECT_EQ(conflict("<attribute><name>speed",
                      "<attribute><name>flag</name><dataType>HLAoctet</dataType></"
                      "attribute><attribute><name>speed"),
             "lights.xml:8: InconsistentFDD: <attribute> 'flag' of class 'Vessel' is missing in the "
-            "definition at harbour.xml:6");
+            "definition at harbour.xml:6 (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(conflict("<field><name>x</name><dataType>HLAfloat32LE",
                      "<field><name>x</name><dataType>HLAfloat32BE"),
             "lights.xml:29: InconsistentFDD: <fixedRecordData> 'Position' differs in <dataType> "
-            "from its definition at harbour.xml:28");
+            "from its definition at harbour.xml:28 (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(conflict("<name>words</name><dataType>HLAASCIIstring",
                      "<name>words</name><dataType>HLAunicodeString"),
             "lights.xml:20: InconsistentFDD: <parameter> 'words' of class 'Hail' differs in "
-            "<dataType> from its definition at harbour.xml:20");
+            "<dataType> from its definition at harbour.xml:20 (IEEE 1516.2-2010, 4.5)");
   EXPECT_EQ(conflict("<upperBound>360</upperBound></dimension>",
                      "<upperBound>360</upperBound></dimension><dimension><name>Y</"
                      "name><upperBound>5</upperBound></dimension>",
                      lights_xml),
             "lights.xml:9: InconsistentFDD: <dimension> 'Y' differs from its definition at "
-            "harbour.xml:25");
+            "harbour.xml:25 (IEEE 1516.2-2010, 4.6)");
 }
 
 struct Malformed {

@@ -217,27 +217,29 @@ std::string fom_complaint(const std::string& from, const std::string& to) {
 }
 
 TEST(Fom, ErrorsNameFileLineElementAndWhatIsAllowed) {
-  EXPECT_EQ(fom_complaint("<dataType>Position</dataType>", "<dataType>Place</dataType>"),
-            "harbour.xml:7: <attribute> 'position' has the unknown data type 'Place'; allowed are "
-            "those in <dataTypes> and the standard's, such as HLAfloat32LE");
+  EXPECT_EQ(
+      fom_complaint("<dataType>Position</dataType>", "<dataType>Place</dataType>"),
+      "harbour.xml:7: <attribute> 'position' has the unknown data type 'Place'; allowed are "
+      "those in <dataTypes> and the standard's, such as HLAfloat32LE (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(fom_complaint("<order>TimeStamp</order>", "<order>Sorted</order>"),
             "harbour.xml:10: <attribute> 'destination' has order 'Sorted'; allowed are Receive, "
-            "TimeStamp");
+            "TimeStamp (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(fom_complaint("HLAbestEffort", "carrierPigeon"),
             "harbour.xml:14: <attribute> 'level' has transportation 'carrierPigeon'; allowed are "
-            "HLAreliable, HLAbestEffort");
+            "HLAreliable, HLAbestEffort and those in <transportations> (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(fom_complaint("<name>speed</name>", "<name>position</name>"),
             "harbour.xml:8: <attribute> 'position' is declared twice in class 'Vessel' or what it "
-            "inherits");
-  EXPECT_EQ(fom_complaint("<name>speed</name>", ""), "harbour.xml:8: <attribute> lacks <name>");
+            "inherits (IEEE 1516.2-2010, 4.4)");
+  EXPECT_EQ(fom_complaint("<name>speed</name>", ""),
+            "harbour.xml:8: <attribute> lacks <name> (IEEE 1516.2-2010, 4.4)");
   EXPECT_EQ(fom_complaint("<dimension>Y</dimension>", "<dimension>Z</dimension>"),
             "harbour.xml:7: <attribute> 'position' has the unknown dimension 'Z'; allowed are "
-            "those in <dimensions>");
+            "those in <dimensions> (IEEE 1516.2-2010, 4.6)");
   EXPECT_EQ(fom_complaint("<objectClass><name>Tide", "<objectClass><name>Vessel"),
-            "harbour.xml:13: <objectClass> 'Vessel' is declared twice");
+            "harbour.xml:13: <objectClass> 'Vessel' is declared twice (IEEE 1516.2-2010, 4.2)");
   EXPECT_EQ(fom_complaint("<field><name>x</name><dataType>HLAfloat32LE",
                           "<field><name>x</name><dataType>Position"),
-            "harbour.xml:28: data type 'Position' contains itself");
+            "harbour.xml:28: data type 'Position' contains itself (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(fom_complaint("<objectModel>", "<model>").substr(0, 16), "harbour.xml:34: ")
       << "where the tags cease to match";
   EXPECT_NE(fom_complaint("</field>", "").find("no well-formed XML"), std::string::npos);

@@ -39,6 +39,13 @@ struct Dice {
     return bytes;
   }
   Stamp stamp() { return {static_cast<double>(random()) / 1e9, random()}; }
+  /// Attributes that a declaration may name, by turns of a narrow class and of a wide one.
+  AttributeBits declared() {
+    AttributeBits bits = random();
+    if (random() % 2 == 0) bits = bits << 63 | random();
+    else bits &= 0x7fffffffu;
+    return bits & ~(AttributeBits{1} << privilege_to_delete_object.value);
+  }
 };
 
 template <class Message>
@@ -70,8 +77,8 @@ TEST(Message, ReadsBackAsItWasWrittenAndNeverFromLess) {
     join.fom_hash = dice.number<std::uint64_t>();
     join.federation = join.name = join.type = dice.text();
     expect_round_trip(join);
-    expect_round_trip(PublishObjectClassMessage{u16(), u32()});
-    expect_round_trip(SubscribeObjectClassMessage{u16(), u32(), u32()});
+    expect_round_trip(PublishObjectClassMessage{u16(), dice.declared()});
+    expect_round_trip(SubscribeObjectClassMessage{u16(), dice.declared(), u32()});
     expect_round_trip(PublishInteractionClassMessage{u16(), static_cast<std::uint8_t>(u16() % 2)});
     expect_round_trip(DiscoverObjectMessage{u32(), u16(), dice.text()});
     expect_round_trip(RemoveObjectMessage{u32()});
@@ -122,7 +129,7 @@ TEST(Message, OfDeclarationsAndObjectsReadsBackAsItWasWrittenAndNeverFromLess) {
     Dice dice{std::mt19937_64(seed), {}, {}};
     const auto word = static_cast<std::uint8_t>(dice.number<std::uint32_t>() % 2);
     const auto number = dice.number<std::uint32_t>();
-    const auto bits = dice.number<std::uint32_t>();
+    const AttributeBits bits = dice.declared();
     const auto object_class = dice.number<std::uint16_t>();
     expect_round_trip(ClassRelevanceMessage{word, object_class, bits, number});
     expect_round_trip(ObjectRelevanceMessage{number, bits});
@@ -133,7 +140,7 @@ TEST(Message, OfDeclarationsAndObjectsReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(LocalDeleteMessage{number});
     expect_round_trip(RequestUpdateMessage{word, number, bits, dice.some(number % 300)});
     expect_round_trip(ChangeTransportationMessage{word, number, bits, word});
-    expect_round_trip(QueryTransportationMessage{word, number, bits});
+    expect_round_trip(QueryTransportationMessage{word, number, number});
     expect_round_trip(TransportationMessage{word, word, number, bits, word});
   }
 }

@@ -150,32 +150,33 @@ std::string complaint(const std::string& from, const std::string& to) {
 TEST(QuantisedCodec, ModelsThatCannotBeMeantAreRefusedByLineAndElement) {
   EXPECT_EQ(complaint("<resolution>0.001</resolution>", ""),
             "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number "
-            "above 0");
+            "above 0 (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("0.001", "fine"),
             "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number "
-            "above 0");
+            "above 0 (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("0.001", "-1"),
             "fjord.xml:19: <simpleData> 'Place' has a range, so its <resolution> must be a number "
-            "above 0");
+            "above 0 (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("range -500 2500", "range -500"),
             "fjord.xml:19: <simpleData> 'Place' has a note 'range -500'; expected 'range LOW "
-            "HIGH', two numbers");
+            "HIGH', two numbers (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("range -500 2500", "range 5 5"),
             "fjord.xml:19: <simpleData> 'Place' has a range and resolution that its representation "
-            "cannot hold");
+            "cannot hold (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("0.01<", "1e-9<"),
             "fjord.xml:20: <simpleData> 'Speed' has a range and resolution that its representation "
-            "cannot hold");
+            "cannot hold (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("range -11000 0", "range -40000 0"),
             "fjord.xml:21: <simpleData> 'Depth' has a range and resolution that its representation "
-            "cannot hold");
-  EXPECT_EQ(complaint("<name>Depth</name><representation>HLAinteger16LE",
-                      "<name>Depth</name><representation>HLAinteger64LE"),
-            "fjord.xml:21: <simpleData> 'Depth' has a range, so its <representation> must be "
-            "HLAfloat32, HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE");
+            "cannot hold (IEEE 1516.2-2010, 4.13)");
+  EXPECT_EQ(
+      complaint("<name>Depth</name><representation>HLAinteger16LE",
+                "<name>Depth</name><representation>HLAinteger64LE"),
+      "fjord.xml:21: <simpleData> 'Depth' has a range, so its <representation> must be "
+      "HLAfloat32, HLAfloat64, HLAinteger16 or HLAinteger32, LE or BE (IEEE 1516.2-2010, 4.13)");
   EXPECT_EQ(complaint("rate of x", "rate of z"),
             "fjord.xml:33: <field> 'speedX' is the rate of 'z'; both must be fields of "
-            "<fixedRecordData> 'Track' with a range and a resolution");
+            "<fixedRecordData> 'Track' with a range and a resolution (IEEE 1516.2-2010, 4.13)");
 }
 
 TEST(QuantisedCodec, IsPartOfTheModelsHash) {

@@ -63,6 +63,8 @@ class Model:
     def travel_lines(self, element):
         """Transportation, order and dimensions as numbers."""
         bits = sum(1 << [name for name, _ in self.dimensions].index(each.text) for each in element.findall("dimensions/dimension"))
+        if element.findtext("name") == "HLAinteractionRoot":
+            return ["0", "0", str(bits)]
         return [str(int(element.findtext("transportation") == "HLAbestEffort")), str(int(element.findtext("order") == "TimeStamp")), str(bits)]
 
     def member_lines(self, element, is_attribute):
@@ -273,7 +275,7 @@ class Reader:
 
     def updates(self, verb):
         assert self.stamp is not None, "a block of updates before the first stamp of its frame"
-        number, bits = self.varint(), self.varint()
+        number, bits = self.varint(), self.attribute_bits()
         types = [data_type for k, (_, data_type) in enumerate(self.model.objects[number][1]) if bits >> k & 1]
         lines = []
         for handle in self.block():
@@ -295,8 +297,16 @@ class Reader:
             handle += -(step + 1) // 2 if step & 1 else step // 2
             yield handle
 
+    def attribute_bits(self):
+        low = self.varint()
+        return low & (1 << 63) - 1 | self.varint() << 63 if low >> 63 else low
+
+    def attribute_word(self):
+        word = self.u32()
+        return word & 0x7FFFFFFF | self.attribute_bits() << 32 if word >> 31 else word
+
     def class_and_attributes(self):
-        number, bits = self.u16(), self.u32()
+        number, bits = self.u16(), self.attribute_word()
         return self.object_class(number) + " " + self.attributes(number, bits)
 
     def object_message(self):
@@ -330,11 +340,15 @@ class Reader:
         return ["%s %d %s" % (verb, handle, words) for handle in self.block()]
 
     def ownership(self, names):
-        word, bits, tag = names[self.u8()], self.varint(), self.short_bytes()
+        word, bits, tag = names[self.u8()], self.attribute_bits(), self.short_bytes()
         return self.object_block(word, "%x %s" % (bits, tag))
 
+    def pair(self):
+        attributes, place = self.u32(), self.u32()
+        return attributes << 32 * (place >> 18), place & (1 << 18) - 1
+
     def pairs(self):
-        return ",".join("%x:%d" % (self.u32(), self.u32()) for _ in range(self.u16())) or "-"
+        return ",".join("%x:%d" % self.pair() for _ in range(self.u16())) or "-"
 
     def ranges(self):
         return ["ranges %d %s" % (self.u32(), " ".join("%s..%s" % (self.f64(), self.f64()) for _ in range(self.u8())))]
@@ -375,7 +389,7 @@ class Reader:
         return ("active", "passive")[self.u8()]
 
     def bits(self):
-        return "{0:b}".format(self.varint())
+        return "{0:b}".format(self.attribute_bits())
 
     def names(self):
         inner = Reader(self.take(self.u16()), self.model)
@@ -392,7 +406,7 @@ class Reader:
         if self.u8() == 1:
             return ["interaction_relevance %s %d %d" % (self.model.interactions[self.varint()][0], self.varint(), self.varint())]
         number = self.varint()
-        return ["class_relevance %s %s %s" % (self.object_class(number), self.attributes(number, self.varint()), self.attributes(number, self.varint()))]
+        return ["class_relevance %s %s %s" % (self.object_class(number), self.attributes(number, self.attribute_bits()), self.attributes(number, self.attribute_bits()))]
 
     def execution(self):
         if self.u8() == 1:

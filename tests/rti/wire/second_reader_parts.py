@@ -50,7 +50,8 @@ def digest(model):
 
     def travel(element):
         names = sorted(each.text for each in element.findall("dimensions/dimension"))
-        return " %d %d" % (element.findtext("transportation") == "HLAbestEffort", element.findtext("order") == "TimeStamp") + "".join(" " + name for name in names)
+        is_root = element.findtext("name") == "HLAinteractionRoot"
+        return " %d %d" % (not is_root and element.findtext("transportation") == "HLAbestEffort", not is_root and element.findtext("order") == "TimeStamp") + "".join(" " + name for name in names)
 
     def add(outer, tag, member, word, path, periodic):
         for element in outer.findall(tag):

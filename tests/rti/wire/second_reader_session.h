@@ -170,8 +170,8 @@ class Clerk final : public FederateAmbassador {
   }
   void confirm_attribute_transportation_type_change(ObjectHandle object, AttributeSet set,
                                                     Transportation type) override {
-    heard.push_back(line_of("transportation object confirmation", object.value, set.bits,
-                            static_cast<int>(type)));
+    heard.push_back(line_of("transportation object confirmation", object.value,
+                            static_cast<std::uint32_t>(set.bits), static_cast<int>(type)));
   }
   void report_attribute_transportation_type(ObjectHandle object, AttributeHandle attribute,
                                             Transportation type) override {
@@ -198,7 +198,7 @@ class Clerk final : public FederateAmbassador {
   }
   static std::string binary(AttributeSet set) {
     std::string text;
-    for (std::uint32_t bits = set.bits; bits != 0; bits >>= 1)
+    for (AttributeBits bits = set.bits; bits != 0; bits >>= 1)
       text.insert(text.begin(), (bits & 1u) != 0 ? '1' : '0');
     return text.empty() ? "0" : text;
   }

@@ -1,0 +1,109 @@
+// Ticks whenever something has come, so that an answer waits for nothing.
+#include "game/apps/rti/rti_host.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+
+#include "game/apps/command.h"
+#include "game/net/address.h"
+#include "game/net/gate.h"
+
+namespace rink::game {
+namespace {
+
+rti::DirectorySettings settings_of(const RtiOptions& options) {
+  rti::DirectorySettings settings;
+  settings.federation.filter = options.scheme;
+  settings.federation.federate_max = options.federates_max;
+  settings.execution_max = options.executions_max;
+  return settings;
+}
+
+/// Names are not trusted, so bytes that control a terminal are replaced.
+std::string shown(std::string name) {
+  for (char& letter : name)
+    if (static_cast<unsigned char>(letter) < 32 || letter == 127) letter = '?';
+  return name;
+}
+
+void print(const char* what, const rti::FederateReport& federate, const std::string& federation) {
+  std::printf("federate %s (%s) has %s federation %s\n", shown(federate.name).c_str(),
+              shown(federate.type).c_str(), what, shown(federation).c_str());
+}
+
+bool has(const std::vector<rti::FederateReport>& all, const rti::FederateReport& federate) {
+  return std::ranges::find(all, federate.federate, &rti::FederateReport::federate) != all.end();
+}
+
+}  // namespace
+
+RtiHost::RtiHost(const RtiOptions& options, const rti::Fom& fom)
+    : options_(options),
+      directory_(settings_of(options)),
+      sockets_(options.transport),
+      gate_(sockets_.get()),
+      host_(directory_) {
+  if (!options.key_file.empty() && options.federations.size() != 1)
+    throw std::runtime_error(
+        "--key-file: proofs name one federation: give one --federation with it");
+  add_gate(gate_,
+           {.key_file = options.key_file,
+            .federation = options.federations.empty() ? "rink" : options.federations.front(),
+            .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
+           now_s);
+  directory_.offer(fom);
+  for (const std::string& federation : options.federations)
+    if (const rti::HlaError error = directory_.create(federation, fom.hash());
+        error != rti::HlaError::none)
+      throw std::runtime_error("--federation: '" + federation + "': " + to_string(error));
+  host_.add(gate_);
+  directory_.advance_clock(now_s());
+}
+
+std::uint16_t RtiHost::listen() {
+  const auto [address, port] = address_and_port("--listen", options_.listen, 0);
+  return sockets_.listen(address, port);
+}
+
+void RtiHost::serve(double seconds) {
+  host_.poll(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(seconds)));
+  host_.advance_clock(now_s());
+  host_.match();
+  host_.flush();
+  constexpr double look_s = 0.25;
+  if (now_s() < printed_s_ + look_s) return;
+  print_changes();
+  printed_s_ = now_s();
+}
+
+/// Compares who is joined with who was: what came and went within a look is not told.
+void RtiHost::print_changes() {
+  Joined now;
+  for (const auto& each : directory_.list())
+    now[each.federation] = directory_.find(each.federation)->report().federates;
+  for (const auto& [federation, federates] : joined_) {
+    const auto found = now.find(federation);
+    for (const rti::FederateReport& each : federates)
+      if (found == now.end() || !has(found->second, each)) print("left", each, federation);
+    if (found == now.end()) std::printf("federation %s is destroyed\n", shown(federation).c_str());
+  }
+  for (const auto& [federation, federates] : now) {
+    const auto before = joined_.find(federation);
+    if (before == joined_.end())
+      std::printf("federation %s is created\n", shown(federation).c_str());
+    for (const rti::FederateReport& each : federates)
+      if (before == joined_.end() || !has(before->second, each)) print("joined", each, federation);
+  }
+  joined_ = std::move(now);
+  std::fflush(stdout);
+}
+
+void RtiHost::end() {
+  print_changes();
+  host_.close_all("the RTI has ended");
+}
+
+}  // namespace rink::game
