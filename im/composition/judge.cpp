@@ -34,13 +34,15 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"hysteresis", "margin", 0.0, metres_max, false, true, false},
                           Key{"nearest", "k", 1.0, 1e6, true, true, false},
                           Key{"priority", "budget", 1.0, metres_max, true, false, false},
+                          Key{"psense", "vision", 1e-6, 1.0, false, false, false},
                           Key{"strips", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"swept", "disc", 0.0, 1.0, true, false, false},
                           Key{"swept", "drag", 0.0, 1e6, false, false, false},
                           Key{"swept", "horizon", 0.0, 1e6, false, true, false},
                           Key{"tiers", "at", 1e-6, 1.0, false, true, true},
                           Key{"top", "k", 1.0, 1e6, true, true, false}};
-constexpr std::array stages{"dwell", "hysteresis", "nearest", "priority", "swept", "tiers", "top"};
+constexpr std::array stages{"dwell",  "hysteresis", "nearest", "priority",
+                            "psense", "swept",      "tiers",   "top"};
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;

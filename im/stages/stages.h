@@ -37,6 +37,11 @@ std::unique_ptr<Filter> make_rank(std::unique_ptr<Filter> inner,
                                   std::unique_ptr<PairFunction> score, std::uint32_t count,
                                   const char* name);
 
+/// Of the relevant entities of each subscriber only its near and sensor nodes stay so: those within
+/// `vision`, a share (above 0, up to 1) of the subscription's disc, by their middles, and the
+/// nearest one beyond in each of eight sectors, of equals the smaller id (Schmieg et al. 2008).
+std::unique_ptr<Filter> make_psense(std::unique_ptr<Filter> inner, double vision);
+
 /// Orders relevant entities by urgency (im/stages/priority_order.h), for senders of at most
 /// `budget` bytes to a subscriber between two matches; 0: no limit.
 std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget);

@@ -77,7 +77,7 @@ void add_options(game::Flags& flags, CompareOptions& options) {
       "an experiment file (docs/experiments.md), or the name of an installed one: default, gains, "
       "full, virtual, modes (with and without a server, in virtual time; over sockets: "
       "modes_sockets), nodes (servers that share a simulation), traces (a mobility trace without a "
-      "game) and others listed there");
+      "game), published (schemes of the literature) and others listed there");
   flags.option("--out", options.out,
                "folder for the results (default: report, or report-2, ... if taken)");
   flags.flag("--force", options.may_replace,

@@ -197,4 +197,17 @@ Bytes Fom::value(ObjectClassHandle handle, AttributeSet set, AttributeHandle att
   return {};
 }
 
+Fom Fom::parse(std::string_view xml, const std::string& source) {
+  const FomModule module{std::string(xml), source};
+  return parse(std::span(&module, 1));
+}
+
+Fom Fom::load(const std::string& path) { return load(std::span(&path, 1)); }
+
+Fom Fom::load(std::span<const std::string> paths) {
+  std::vector<FomModule> modules;
+  for (const std::string& path : paths) modules.push_back(read_fom_module(path));
+  return parse(modules);
+}
+
 }  // namespace rink::rti

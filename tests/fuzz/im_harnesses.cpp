@@ -64,13 +64,15 @@ constexpr std::array expressions{"region",
                                  "team or owner or always",
                                  "aura and not sight",
                                  "not (region or cone) and not team",
+                                 "none with psense",
+                                 "hybrid with psense(vision=0.5)",
                                  "region with swept(horizon=0.5 drag=0.25)",
                                  "aura with tiers(at=0.3 at=0.6) with priority",
                                  "region with hysteresis(margin=0.5)",
                                  "cone with dwell(matches=3)",
                                  "(aura or always) with swept(horizon=1 disc=1) with "
                                  "hysteresis(margin=1) with dwell(matches=2) with tiers(at=0.5)"};
-constexpr std::size_t forgetful_count = 14;
+constexpr std::size_t forgetful_count = 16;
 
 im::FilterSettings settings() {
   return {.world = world,
