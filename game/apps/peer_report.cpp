@@ -28,6 +28,7 @@ SharedGame game_of(const PeerOptions& options) {
   if (!options.keys.empty()) {
     KeyLog log = read_key_log(std::filesystem::path(options.keys));
     require_fit(log, scene, options.keys);
+    require_keys_alone(log, options.keys, "a game among peers");
     recorded = std::move(log.events);
   }
   return SharedGame(std::move(scene), recorded);

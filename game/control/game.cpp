@@ -86,7 +86,8 @@ void Game::spawn_bat(std::uint32_t player, const Vector2& position, const Vector
 }
 
 InputEvent Game::submit(InputEvent event) {
-  assert(std::isfinite(event.time) && event.time >= now() && event.player < player_count());
+  assert(std::isfinite(event.time) && event.time >= now() && event.player < player_count() &&
+         is_sound(event.push));
   if (event.time == over_)
     event.time = std::nextafter(over_, std::numeric_limits<double>::infinity());
   inputs_.push_back({event, submitted_++});
@@ -135,7 +136,7 @@ void Game::show(double until, std::span<const ShownBody> bodies, std::span<const
   }
   for (const InputEvent& key : keys) {
     assert(key.player < player_count() && seats_[key.player].entity);
-    seats_[key.player].controller.press(key.key, key.kind == InputKind::key_down);
+    seats_[key.player].controller.take(key);
   }
   score_ = score.score;
   is_over_ = score.is_over;
@@ -221,7 +222,7 @@ void Game::apply(const InputEvent& event) {
   if (event.kind == InputKind::leave) return leave(event.player);
   Seat& seat = seats_[event.player];
   if (!seat.entity) return;
-  seat.controller.press(event.key, event.kind == InputKind::key_down);
+  seat.controller.take(event);
   simulator_->set_thrust(*seat.entity, seat.controller.thrust());
 }
 
@@ -269,6 +270,11 @@ double key_thrust(const Game& game, std::uint32_t player) {
   return game.seats_[player].bat.thrust;
 }
 
+Push pushed(const Game& game, std::uint32_t player) {
+  assert(player < game.seats_.size());
+  return game.seats_[player].controller.pushed();
+}
+
 void Game::check() const {
   assert(std::ranges::is_sorted(entities_, {}, &Entity::id));
   std::size_t bats = 0;
@@ -308,8 +314,7 @@ StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,
   StateHash hash;
   hash.add(world);
   for (const Entity& entity : entities) hash.add(std::uint64_t{entity.id.index});
-  for (const BatController* player : players)
-    hash.add(std::uint64_t{player->keys().bits()} << 32 | player->input_count());
+  for (const BatController* player : players) hash.add(player->digest());
   hash.add(std::uint64_t{score.left} << 32 | score.right);
   return hash;
 }

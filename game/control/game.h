@@ -61,12 +61,12 @@ class Game {
   Game& operator=(Game&&) = default;
 
   /// Queues `event` for its own instant, which must be finite and not before now(); its player must
-  /// have a bat in the scene (both asserted). Keys for a bat that is not in play at that instant,
-  /// entering twice and leaving twice have no effect. `enter` puts the bat back at its home or, if
-  /// that is taken, at the nearest free place, and tries again every `placement_retry` seconds when
-  /// there is none. If inputs or face-offs of now() have been played already, that instant is over,
-  /// for motion may follow from them: the event comes at the next one that a double can tell from
-  /// it. Answers the event as it was queued, which is what a log must hold.
+  /// have a bat in the scene (both asserted). Keys and pushes for a bat that is not in play at that
+  /// instant, entering twice and leaving twice have no effect. `enter` puts the bat back at its
+  /// home or, if that is taken, at the nearest free place, and tries again every `placement_retry`
+  /// seconds when there is none. If inputs or face-offs of now() have been played already, that
+  /// instant is over, for motion may follow from them: the event comes at the next one that a
+  /// double can tell from it. Answers the event as it was queued, which is what a log must hold.
   InputEvent submit(InputEvent event);
 
   /// Plays up to and including `until` [s], not before now(). Once the match is over bats and pucks
@@ -143,7 +143,7 @@ class Game {
     assert(player < player_count());
     return seats_[player].controller.keys();
   }
-  /// Key events that have taken effect on `player`'s bat since the start.
+  /// Key events and pushes that have taken effect on `player`'s bat since the start.
   std::uint32_t input_count(std::uint32_t player) const {
     assert(player < player_count());
     return seats_[player].controller.input_count();
@@ -164,6 +164,8 @@ class Game {
   /// What each held key adds to the acceleration of the player's bat [m/s^2]; the player must have
   /// a seat (asserted).
   friend double key_thrust(const Game& game, std::uint32_t player);
+  /// What the player, who must have a seat (asserted), pushes beside the keys.
+  friend Push pushed(const Game& game, std::uint32_t player);
 
   /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for
   /// equal games.

@@ -19,7 +19,7 @@ namespace rink::game {
 namespace {
 
 constexpr std::uint64_t magic = 0x656d'6167'6b6e'6972;  // "rinkgame", little endian
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;                    ///< from 2 on with pushes
 
 template <class Stream, class Value>
 bool exchange_optional(Stream& stream, std::optional<Value>& value) {
@@ -40,10 +40,15 @@ bool exchange_entity(Stream& stream, Entity& entity) {
 }
 
 template <class Stream>
+bool exchange_push(Stream& stream, Push& push) {
+  return stream.numbers(push.x, push.y) && is_sound(push);
+}
+
+template <class Stream>
 bool exchange_event(Stream& stream, InputEvent& event) {
-  auto& [time, player, kind, key] = event;
-  return stream.numbers(time, player) && stream.choice(kind, InputKind::leave) &&
-         stream.choice(key, Key::down);
+  auto& [time, player, kind, key, push] = event;
+  return stream.numbers(time, player) && stream.choice(kind, InputKind::push) &&
+         stream.choice(key, Key::down) && exchange_push(stream, push);
 }
 
 KeysHeld keys_of(std::uint8_t bits) {
@@ -56,8 +61,9 @@ template <class Stream>
 bool exchange_controller(Stream& stream, BatController& controller, double thrust) {
   std::uint8_t keys = controller.keys().bits();
   std::uint32_t input_count = controller.input_count();
-  if (!stream.numbers(keys, input_count)) return false;
-  controller = BatController(thrust, keys_of(keys), input_count);
+  Push push = controller.pushed();
+  if (!stream.numbers(keys, input_count) || !exchange_push(stream, push)) return false;
+  controller = BatController(thrust, keys_of(keys), input_count, push);
   return true;
 }
 

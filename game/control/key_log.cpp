@@ -1,6 +1,8 @@
 // Makes key logs for scenes, and checks that a log fits a scene.
 #include "game/control/key_log.h"
 
+#include <algorithm>
+
 namespace rink::game {
 
 KeyLog key_log_for(const Scene& scene) {
@@ -10,6 +12,17 @@ KeyLog key_log_for(const Scene& scene) {
   log.bats = static_cast<std::uint32_t>(scene.bodies.bats.size());
   log.fingerprint = fingerprint(scene);
   return log;
+}
+
+bool has_pushes(const KeyLog& log) {
+  return std::ranges::any_of(log.events,
+                             [](const InputEvent& event) { return event.kind == InputKind::push; });
+}
+
+void require_keys_alone(const KeyLog& log, const std::string& file, const std::string& what) {
+  if (has_pushes(log))
+    throw SceneError(file + ": has pushes of a pointer or a gamepad, but " + what +
+                     " plays keys alone; rink replay and rink simulate play both");
 }
 
 void require_fit(const KeyLog& log, const Scene& scene, const std::string& file) {

@@ -16,9 +16,10 @@ inline constexpr double key_time_max = 1e9;
 /// The game that was played, and its inputs. As a file: packed (key_log_packed.h) of matches, else
 /// text: a line `rink-keys 1`, one line each for scene, seed and, if known, bats, fingerprint,
 /// until, hash, the scene's own text behind bars, then one line per event: time with 17 significant
-/// digits, which read back to the same bits, player, what (down, up, enter, leave) and, for down
-/// and up, the key. The last line, `end`, has the number of events and a checksum of all lines
-/// above.
+/// digits, which read back to the same bits, player, what (down, up, enter, leave, push) and, for
+/// down and up, the key, for push its steps along x and y. The last line, `end`, has the number of
+/// events and a checksum of all lines above. A log with pushes begins with `rink-keys 3`, which
+/// older versions refuse.
 struct KeyLog {
   std::string scene;  ///< as given to load_scene
   std::uint64_t seed = 1;
@@ -37,6 +38,11 @@ struct KeyLog {
 
 /// The log's header for `scene`; its events are still to come.
 KeyLog key_log_for(const Scene& scene);
+
+bool has_pushes(const KeyLog& log);
+
+/// Throws SceneError, naming `file`, if `log` has pushes: `what` plays keys alone.
+void require_keys_alone(const KeyLog& log, const std::string& file, const std::string& what);
 
 /// Throws SceneError, naming `file`, if `log` has players that `scene` has no bats for, or was
 /// recorded in another scene.

@@ -23,8 +23,9 @@ namespace rink::game {
 namespace {
 
 constexpr const char* version_line = "rink-keys 1";
+constexpr const char* push_version_line = "rink-keys 3";  ///< of logs with pushes
 constexpr std::size_t version_line_max = 256, line_max = 1u << 16, size_max = 1u << 30;  // bytes
-constexpr std::array<std::string_view, 4> input_names{"down", "up", "enter", "leave"};
+constexpr std::array<std::string_view, 5> input_names{"down", "up", "enter", "leave", "push"};
 
 bool has_key(InputKind kind) { return kind == InputKind::key_down || kind == InputKind::key_up; }
 
@@ -59,6 +60,7 @@ class LineChecksum {
 
 std::string first_line_expected() {
   return std::string("the line \"") + version_line + "\" or \"" + packed_version_line +
+         "\", or with pushes \"" + push_version_line + "\" or \"" + packed_push_version_line +
          "\", with which key logs of this version begin";
 }
 
@@ -68,8 +70,10 @@ class Reader {
 
   KeyLog read() {
     next_line();
-    if (line_ == packed_version_line) return read_packed_key_log(stream_, name_);
-    if (line_ != version_line) refuse(line_, first_line_expected());
+    if (line_ == packed_version_line || line_ == packed_push_version_line)
+      return read_packed_key_log(stream_, name_, line_ == packed_push_version_line);
+    may_push_ = line_ == push_version_line;
+    if (line_ != version_line && !may_push_) refuse(line_, first_line_expected());
     while (next_line()) {
       const std::vector<std::string> words = words_of(line_);
       if (words.empty() || words.front().front() == '#') continue;
@@ -173,14 +177,17 @@ class Reader {
   }
 
   void read_event(const std::vector<std::string>& words) {
-    if (words.size() < 3) refuse(line_, "time, player, and down, up, enter or leave");
+    if (words.size() < 3) refuse(line_, "time, player, and " + kinds_expected());
     InputEvent event;
     event.time = time_of(words[0]);
     if (!log_.events.empty() && event.time < log_.events.back().time)
       refuse(words[0], "a time not before that of the line above");
     event.player = require<std::uint32_t>(words[1], "a player's number, counted from 0");
     event.kind = input_kind(words[2]);
-    if (words.size() != (has_key(event.kind) ? 4u : 3u))
+    if (event.kind == InputKind::push) {
+      if (words.size() != 5) refuse(line_, "two numbers of steps after push");
+      event.push = {steps(words[3]), steps(words[4])};
+    } else if (words.size() != (has_key(event.kind) ? 4u : 3u))
       refuse(line_,
              has_key(event.kind) ? "one key after " + words[2] : "nothing after " + words[2]);
     if (has_key(event.kind)) {
@@ -193,14 +200,25 @@ class Reader {
 
   InputKind input_kind(const std::string& word) const {
     for (std::size_t kind = 0; kind < input_names.size(); ++kind)
-      if (input_names[kind] == word) return static_cast<InputKind>(kind);
-    refuse(word, "down, up, enter or leave");
+      if (input_names[kind] == word &&
+          (may_push_ || static_cast<InputKind>(kind) != InputKind::push))
+        return static_cast<InputKind>(kind);
+    refuse(word, kinds_expected());
+  }
+  std::string kinds_expected() const {
+    return may_push_ ? "down, up, enter, leave or push" : "down, up, enter or leave";
+  }
+  std::int8_t steps(const std::string& word) const {
+    const int number = require<int>(word, "a whole number of steps, -127 to 127");
+    if (number < -Push::whole || number > Push::whole) refuse(word, "steps from -127 to 127");
+    return static_cast<std::int8_t>(number);
   }
 
   std::istream& stream_;
   std::string name_;
   std::string line_;
   std::uint64_t line_number_ = 0, size_ = 0;
+  bool may_push_ = false;
   LineChecksum checksum_;
   std::uint64_t above_ = 0;  ///< the checksum of all lines above this one
   KeyLog log_;
@@ -217,7 +235,7 @@ class Writer {
   explicit Writer(std::ostream& stream) : stream_(stream) {}
 
   void write(const KeyLog& log) {
-    line(version_line);
+    line(has_pushes(log) ? push_version_line : version_line);
     line("scene " + log.scene);
     line("seed " + std::to_string(log.seed));
     if (log.bats) line("bats " + std::to_string(*log.bats));
@@ -238,6 +256,8 @@ class Writer {
     std::string text = exact(event.time) + ' ' + std::to_string(event.player) + ' ' +
                        std::string(input_names[static_cast<std::size_t>(event.kind)]);
     if (has_key(event.kind)) text += ' ' + std::string(key_name(event.key));
+    if (event.kind == InputKind::push)
+      text += ' ' + std::to_string(event.push.x) + ' ' + std::to_string(event.push.y);
     line(text);
   }
   void line(const std::string& text) {

@@ -30,6 +30,9 @@ enum class TimeForm : std::uint8_t { on_grid, near_millisecond, in_full };
 /// The optional numbers, by their bits in the log's first byte.
 enum class Part : std::uint8_t { bats, bat_count, puck_count, fingerprint, until, hash };
 
+/// Of a log with pushes: one is told as somebody who enters with this key.
+constexpr Key push_mark = Key::right;
+
 constexpr unsigned player_bits = 2, player_elsewhere = (1u << player_bits) - 1;
 
 /// The bits of a time, which is not below 0: neighbours in them are neighbours in time.
@@ -94,11 +97,15 @@ void write_event(PackedWriter& out, const InputEvent& event, double before) {
   const TimeForm form = is_on_grid ? TimeForm::on_grid
                         : is_near  ? TimeForm::near_millisecond
                                    : TimeForm::in_full;
-  assert(static_cast<unsigned>(event.kind) < 4 && static_cast<unsigned>(event.key) < 4);
+  const bool is_push = event.kind == InputKind::push;
+  const InputKind kind = is_push ? InputKind::enter : event.kind;
+  const Key key = is_push ? push_mark : event.key;
+  assert(static_cast<unsigned>(kind) < 4 && static_cast<unsigned>(key) < 4);
   const unsigned player = std::min<unsigned>(event.player, player_elsewhere);
-  out.byte(static_cast<unsigned>(event.kind) | static_cast<unsigned>(event.key) << 2 |
+  out.byte(static_cast<unsigned>(kind) | static_cast<unsigned>(key) << 2 |
            static_cast<unsigned>(form) << 4 | player << 6);
   if (player == player_elsewhere) out.varint(event.player);
+  if (is_push) out.whole(event.push.x), out.whole(event.push.y);
   if (form == TimeForm::in_full) out.whole(event.time);
   if (form == TimeForm::on_grid)
     out.varint(steps_of(event.time, key_grid) - steps_of(before, key_grid));
@@ -130,7 +137,8 @@ std::string packed(const KeyLog& log) {
 
 class PackedReader {
  public:
-  PackedReader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+  PackedReader(std::string_view bytes, const std::string& name, bool may_push)
+      : bytes_(bytes), name_(name), may_push_(may_push) {}
 
   KeyLog read() {
     KeyLog log;
@@ -199,6 +207,11 @@ class PackedReader {
                      .kind = static_cast<InputKind>(first & 3u),
                      .key = static_cast<Key>(first >> 2 & 3u)};
     if (event.player == player_elsewhere) event.player = small();
+    if (may_push_ && event.kind == InputKind::enter && event.key == push_mark) {
+      event.kind = InputKind::push, event.key = Key::left;
+      event.push = {whole<std::int8_t>(), whole<std::int8_t>()};
+      if (!is_sound(event.push)) refuse("has a push of more than the thrust");
+    }
     event.time = checked(time(static_cast<TimeForm>(first >> 4 & 3u), before));
     if (event.time < before) refuse("has a key before the one that stands above it");
     return event;
@@ -217,6 +230,7 @@ class PackedReader {
 
   std::string_view bytes_;
   const std::string& name_;
+  bool may_push_;
 };
 
 /// At most `size` bytes, as many as there are; a piece at a time, since the size may be forged.
@@ -237,7 +251,8 @@ std::string read_up_to(std::istream& stream, std::uint64_t size) {
 
 void write_packed_key_log(std::ostream& stream, const KeyLog& log) {
   const std::string bytes = packed(log);
-  std::string head = std::string(packed_version_line) + '\n';
+  std::string head =
+      std::string(has_pushes(log) ? packed_push_version_line : packed_version_line) + '\n';
   PackedWriter out(head);
   out.whole(hash_of(bytes));
   out.whole(static_cast<std::uint64_t>(bytes.size()));
@@ -258,7 +273,7 @@ void write_packed_key_log(const std::filesystem::path& file, const KeyLog& log) 
   throw SceneError(file.string() + ": cannot be written: " + reason);
 }
 
-KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
+KeyLog read_packed_key_log(std::istream& stream, const std::string& name, bool may_push) {
   const std::string head = read_up_to(stream, 16);
   std::array<std::uint64_t, 2> numbers{};  // checksum, size
   if (head.size() < sizeof numbers) throw SceneError(name + ": is cut off after its first line");
@@ -274,7 +289,7 @@ KeyLog read_packed_key_log(std::istream& stream, const std::string& name) {
     throw SceneError(name + ": was altered: it continues after its end");
   if (hash_of(bytes) != numbers[0])
     throw SceneError(name + ": was altered: its checksum is another");
-  return PackedReader(bytes, name).read();
+  return PackedReader(bytes, name, may_push).read();
 }
 
 }  // namespace rink::game

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "game/model/push.h"
+
 namespace rink::game {
 
 /// Left and right are along x, down and up along y; up is towards larger y.
@@ -57,15 +59,16 @@ class KeysHeld {
   std::uint8_t bits_ = 0;
 };
 
-enum class InputKind : std::uint8_t { key_down, key_up, enter, leave };
+enum class InputKind : std::uint8_t { key_down, key_up, enter, leave, push };
 
 /// What player `player` did at the simulated instant `time` [s]. `key` means something for key_down
-/// and key_up only.
+/// and key_up only, `push` for push only: the bat is pushed so until the next one.
 struct InputEvent {
   double time = 0.0;
   std::uint32_t player = 0;
   InputKind kind = InputKind::key_down;
   Key key = Key::left;
+  Push push{};
   friend bool operator==(const InputEvent&, const InputEvent&) = default;
 };
 

@@ -178,7 +178,11 @@ void add_options(game::Flags& flags, Options& options) {
 
 std::vector<game::InputEvent> plan_of(const Options& options) {
   if (options.players != "random") return {};
-  if (!options.plan.empty()) return game::read_key_log(options.plan).events;
+  if (!options.plan.empty()) {
+    const game::KeyLog plan = game::read_key_log(options.plan);
+    game::require_keys_alone(plan, options.plan, "a crowd of bots");
+    return plan.events;
+  }
   return game::random_plan(options.seed, options.first + options.count,
                            options.start_s + options.duration_s);
 }

@@ -107,6 +107,7 @@ std::vector<game::InputEvent> keys_of(const Experiment& experiment, const Cell& 
   if (!game::is_player_kind(experiment.players)) {
     const game::KeyLog recorded = game::read_key_log(std::filesystem::path(experiment.players));
     game::require_fit(recorded, scene, experiment.players);
+    game::require_keys_alone(recorded, experiment.players, "an experiment");
     return recorded.events;
   }
   if (experiment.keys == KeySource::live) return {};

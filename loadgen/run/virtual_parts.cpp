@@ -68,6 +68,7 @@ std::vector<game::InputEvent> keys_in(const std::filesystem::path& key_log,
   if (key_log.empty()) return {};
   game::KeyLog log = game::read_key_log(key_log);
   game::require_fit(log, scene, key_log);
+  game::require_keys_alone(log, key_log, "an experiment");
   return std::move(log.events);
 }
 

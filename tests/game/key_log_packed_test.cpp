@@ -123,8 +123,8 @@ TEST(PackedKeyLog, ThatIsAlteredAnywhereIsRefused) {
 
 TEST(PackedKeyLog, OfAnotherVersionIsRefusedByItsFirstLine) {
   std::string bytes = bytes_of(small_log());
-  bytes[10] = '3';
-  EXPECT_THAT(packed_refusal(bytes), HasSubstr("match.keys:1: found \"rink-keys 3\", expected the "
+  bytes[10] = '5';
+  EXPECT_THAT(packed_refusal(bytes), HasSubstr("match.keys:1: found \"rink-keys 5\", expected the "
                                                "line \"rink-keys 1\" or \"rink-keys 2\""));
 }
 

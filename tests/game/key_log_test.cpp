@@ -62,7 +62,7 @@ TEST(KeyLog, IsTextThatPeopleCanWrite) {
 
 TEST(KeyLog, SaysWhichLineIsWrongAndWhatWasExpected) {
   EXPECT_THAT(log_refusal(""), AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
-  EXPECT_THAT(log_refusal("rink-keys 3\n"),
+  EXPECT_THAT(log_refusal("rink-keys 5\n"),
               AllOf(HasSubstr("bad.log:1"), HasSubstr("rink-keys 1")));
   EXPECT_THAT(log_refusal("rink-keys 1\nseed x\n"),
               AllOf(HasSubstr("bad.log:2"), HasSubstr("whole number")));

@@ -21,6 +21,7 @@ ServedGame served_game(const ServeOptions& options) {
   if (!options.keys.empty()) {
     KeyLog log = read_key_log(options.keys);
     require_fit(log, played.scene, options.keys);
+    require_keys_alone(log, options.keys, "a server's replay");
     played.replay = std::move(log.events);
   }
   if (!options.from_state.empty()) {
