@@ -18,6 +18,7 @@
   SCHEME(hex)                \
   SCHEME(hierarchical)       \
   SCHEME(hybrid)             \
+  SCHEME(nimbus)             \
   SCHEME(none)               \
   SCHEME(owner)              \
   SCHEME(region)             \

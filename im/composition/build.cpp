@@ -130,6 +130,8 @@ std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterS
   FilterSettings own = settings;
   own.cell_size = expression.parameter("cell_size", settings.cell_size);
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
+  own.nimbus_radius = expression.parameter("radius", settings.nimbus_radius);
+  own.awareness = expression.parameter("awareness", settings.awareness);
   auto scheme = make_scheme(expression.name, own);
   assert(scheme != nullptr);  // judged names are registered
   return scheme;

@@ -33,6 +33,8 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"hybrid", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hysteresis", "margin", 0.0, metres_max, false, true, false},
                           Key{"nearest", "k", 1.0, 1e6, true, true, false},
+                          Key{"nimbus", "awareness", 0.0, 1.0, false, false, false},
+                          Key{"nimbus", "radius", 1e-3, metres_max, false, false, false},
                           Key{"priority", "budget", 1.0, metres_max, true, false, false},
                           Key{"psense", "vision", 1e-6, 1.0, false, false, false},
                           Key{"strips", "cell_size", 1e-3, 1e6, false, false, false},
@@ -109,6 +111,10 @@ std::string judge_settings(const FilterSettings& settings) {
     return describe({Fault::bad_cell_size, Subject::cells});
   if (!(settings.half_angle_deg >= 0.0 && settings.half_angle_deg <= 180.0))
     return "the half angle of a view is not a number from 0 to 180";
+  if (!(settings.nimbus_radius >= 0.0) || !std::isfinite(settings.nimbus_radius))
+    return "the radius of nimbi is not a finite number from 0";
+  if (!(settings.awareness >= 0.0 && settings.awareness <= 1.0))
+    return "the awareness at which an entity matters is not a number from 0 to 1";
   if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag))
     return "the drag of flights is not a finite number from 0";
   for (std::size_t i = 0; i < settings.posts.size(); ++i) {

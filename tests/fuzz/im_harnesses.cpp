@@ -59,6 +59,7 @@ constexpr std::array expressions{"region",
                                  "hierarchical",
                                  "hybrid",
                                  "diamond",
+                                 "nimbus(radius=1.5 awareness=0.25)",
                                  "strips",
                                  "none",
                                  "team or owner or always",
@@ -72,7 +73,7 @@ constexpr std::array expressions{"region",
                                  "cone with dwell(matches=3)",
                                  "(aura or always) with swept(horizon=1 disc=1) with "
                                  "hysteresis(margin=1) with dwell(matches=2) with tiers(at=0.5)"};
-constexpr std::size_t forgetful_count = 16;
+constexpr std::size_t forgetful_count = 17;
 
 im::FilterSettings settings() {
   return {.world = world,

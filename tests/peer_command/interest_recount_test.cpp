@@ -136,7 +136,8 @@ TEST(ReachOfASchemeByTrial, IsNeverLessThanWhatIsLetInAndLittleMore) {
   };
   expect_reach("region", extent, extent);
   expect_reach("region and aura", extent, extent);
-  expect_reach("region with psense(vision=0.5)", extent, extent);
+  for (const char* const within : {"region with psense(vision=0.5)", "nimbus", "nimbus(radius=1)"})
+    expect_reach(within, extent, extent);
   for (const double size : {0.3, 0.5, 1.1, 2.0, 3.7}) {
     const std::string cells = "(cell_size=" + std::to_string(size) + ")";
     expect_reach("region or grid" + cells, size, size);
