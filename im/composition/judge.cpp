@@ -42,9 +42,10 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"swept", "drag", 0.0, 1e6, false, false, false},
                           Key{"swept", "horizon", 0.0, 1e6, false, true, false},
                           Key{"tiers", "at", 1e-6, 1.0, false, true, true},
-                          Key{"top", "k", 1.0, 1e6, true, true, false}};
-constexpr std::array stages{"dwell",  "hysteresis", "nearest", "priority",
-                            "psense", "swept",      "tiers",   "top"};
+                          Key{"top", "k", 1.0, 1e6, true, true, false},
+                          Key{"von", "area", 0.0, 1.0, false, false, false}};
+constexpr std::array stages{"dwell", "hysteresis", "nearest", "priority", "psense",
+                            "swept", "tiers",      "top",     "von"};
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;

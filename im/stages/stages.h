@@ -42,6 +42,12 @@ std::unique_ptr<Filter> make_rank(std::unique_ptr<Filter> inner,
 /// nearest one beyond in each of eight sectors, of equals the smaller id (Schmieg et al. 2008).
 std::unique_ptr<Filter> make_psense(std::unique_ptr<Filter> inner, double vision);
 
+/// Of the relevant entities of each subscriber only those stay so that are within `area`, a share
+/// (0 to 1) of the subscription's disc, by their middles, its own ones, and those whose regions
+/// touch the subscriber's in the Voronoi diagram of all middles but its own ones' (Hu, Chen & Chen
+/// 2006).
+std::unique_ptr<Filter> make_von(std::unique_ptr<Filter> inner, double area);
+
 /// Orders relevant entities by urgency (im/stages/priority_order.h), for senders of at most
 /// `budget` bytes to a subscriber between two matches; 0: no limit.
 std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget);
