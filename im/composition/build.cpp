@@ -98,6 +98,12 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   if (stage.name == "priority")
     return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
   if (stage.name == "psense") return make_psense(build_inner(), stage.parameter("vision", 1.0));
+  if (stage.name == "donnybrook") {
+    auto first = build_inner(), second = build_inner();
+    return make_donnybrook(std::move(first), std::move(second), make_scheme("owner", settings),
+                           static_cast<std::uint32_t>(stage.parameter("k", 5.0)),
+                           static_cast<unsigned>(stage.parameter("guidance", 5.0)));
+  }
   if (stage.name == "von") return make_von(build_inner(), stage.parameter("area", 1.0));
   if (is_rank(stage))
     return make_rank(build_inner(),

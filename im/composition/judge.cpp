@@ -26,6 +26,8 @@ struct Key {
 };
 constexpr double metres_max = 1e9;
 constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, false},
+                          Key{"donnybrook", "guidance", 1.0, 6.0, true, false, false},
+                          Key{"donnybrook", "k", 1.0, 1e6, true, false, false},
                           Key{"dwell", "matches", 1.0, 100'000.0, true, true, false},
                           Key{"grid", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hex", "cell_size", 1e-3, 1e6, false, false, false},
@@ -44,8 +46,8 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"tiers", "at", 1e-6, 1.0, false, true, true},
                           Key{"top", "k", 1.0, 1e6, true, true, false},
                           Key{"von", "area", 0.0, 1.0, false, false, false}};
-constexpr std::array stages{"dwell", "hysteresis", "nearest", "priority", "psense",
-                            "swept", "tiers",      "top",     "von"};
+constexpr std::array stages{"donnybrook", "dwell", "hysteresis", "nearest", "priority",
+                            "psense",     "swept", "tiers",      "top",     "von"};
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -192,12 +194,11 @@ std::string judge_own(const Expression& expression, Expression::Place* place = n
     return "more than 15 schemes in one combination";
   }
   for (const Expression& operand : expression.operands) {
-    const bool is_last =
-        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "priority");
-    const bool is_tiers_in_priority = expression.name == "priority" && operand.name == "tiers";
-    if (is_last && !is_tiers_in_priority)
-      return "after " + operand.name + " nothing may follow" +
-             (operand.name == "tiers" ? " but priority" : "") +
+    const bool has_tiers =
+        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "donnybrook");
+    const bool is_last = has_tiers || (operand.kind == Kind::stage && operand.name == "priority");
+    if (is_last && !(has_tiers && expression.name == "priority"))
+      return "after " + operand.name + " nothing may follow" + (has_tiers ? " but priority" : "") +
              ": it decides more than whether a pair is relevant";
   }
   return {};
