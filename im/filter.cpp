@@ -21,6 +21,7 @@
   SCHEME(nimbus)             \
   SCHEME(none)               \
   SCHEME(owner)              \
+  SCHEME(pvs)                \
   SCHEME(region)             \
   SCHEME(sight)              \
   SCHEME(strips)             \

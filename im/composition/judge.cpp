@@ -39,6 +39,7 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"nimbus", "radius", 1e-3, metres_max, false, false, false},
                           Key{"priority", "budget", 1.0, metres_max, true, false, false},
                           Key{"psense", "vision", 1e-6, 1.0, false, false, false},
+                          Key{"pvs", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"strips", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"swept", "disc", 0.0, 1.0, true, false, false},
                           Key{"swept", "drag", 0.0, 1e6, false, false, false},

@@ -144,6 +144,33 @@ inline bool strip_touches(const FilterSettings& settings, const Region& s, const
   return strip(s.low_x) <= own && own <= strip(s.high_x);
 }
 
+/// Rectangles overlap, and of no post all ways between the corners of both middles' cells pass
+/// through the inside, unless a corner of the subscriber's is there.
+inline bool cells_see(const FilterSettings& settings, const Region& s, const Region& u) {
+  if (!overlap_closed(s, u)) return false;
+  const auto cell = [&](const Region& region) -> Region {
+    const auto edge = [&](double coordinate, double origin, double next) {
+      return origin +
+             (std::floor((coordinate - origin) / settings.cell_size) + next) * settings.cell_size;
+    };
+    const double x = middle(region.low_x, region.high_x), y = middle(region.low_y, region.high_y);
+    return {edge(x, settings.world.low_x, 0.0), edge(y, settings.world.low_y, 0.0),
+            edge(x, settings.world.low_x, 1.0), edge(y, settings.world.low_y, 1.0)};
+  };
+  const Region from = cell(s), to = cell(u);
+  return std::none_of(settings.posts.begin(), settings.posts.end(), [&](const Disc& post) {
+    for (const double x : {from.low_x, from.high_x})
+      for (const double y : {from.low_y, from.high_y}) {
+        const Region eye{x, y, x, y};
+        if (is_in_shadow(post, eye, x, y)) return false;
+        for (const double to_x : {to.low_x, to.high_x})
+          for (const double to_y : {to.low_y, to.high_y})
+            if (!is_in_shadow(post, eye, to_x, to_y)) return false;
+      }
+    return true;
+  });
+}
+
 /// What each scheme promises, one pair at a time.
 inline Relevant rule_of(const std::string& scheme, const FilterSettings& settings) {
   const auto with_settings =
@@ -172,6 +199,7 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
     return
         [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
   if (scheme == "sight") return with_settings(is_in_sight);
+  if (scheme == "pvs") return with_settings(cells_see);
   if (scheme == "diamond") return diamond_touches;
   if (scheme == "nimbus") return with_settings(nimbus_touches);
   if (scheme == "strips") return with_settings(strip_touches);
