@@ -18,8 +18,10 @@
   SCHEME(hex)                \
   SCHEME(hierarchical)       \
   SCHEME(hybrid)             \
+  SCHEME(nimbus)             \
   SCHEME(none)               \
   SCHEME(owner)              \
+  SCHEME(pvs)                \
   SCHEME(region)             \
   SCHEME(sight)              \
   SCHEME(strips)             \

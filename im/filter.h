@@ -177,6 +177,8 @@ struct FilterSettings {
   double cell_size = 0.0;  ///< side of the smallest cell [m]; 0 lets the scheme choose
   double half_angle_deg = 60.0;  ///< of a field of view, from its middle to either edge [degrees],
                                  ///< 0 to 180; people see sharply over some 120 degrees
+  double nimbus_radius = 0.0;    ///< of the scheme `nimbus` [m]; 0: that of the focus
+  double awareness = 0.0;        ///< at which an entity matters there, 0 to 1
   std::vector<Disc> posts{};     ///< discs that block the view [m]
   double drag = 0.0;             ///< of all flights: dv/dt = -drag v [1/s]
   std::span<const rink_plugin* const> plugins{};  ///< that expressions may name; they outlive the

@@ -100,7 +100,8 @@ double reach_along(Trial& trial, double x, double y, double farthest) {
 }  // namespace
 
 SchemeReach reach_of(const std::string& scheme, im::FilterSettings settings, double extent_max) {
-  for (const char* const plain : {"region", "aura", "hybrid", "sight", "cone", "diamond"})
+  for (const char* const plain :
+       {"region", "aura", "hybrid", "sight", "cone", "diamond", "nimbus", "pvs"})
     if (scheme == plain) return {extent_max, extent_max};
   if (scheme == "none") return {infinity, infinity};
   settings.posts.clear();  // which only hide

@@ -98,6 +98,13 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
   if (stage.name == "priority")
     return make_priority(build_inner(), static_cast<std::size_t>(stage.parameter("budget", 0.0)));
   if (stage.name == "psense") return make_psense(build_inner(), stage.parameter("vision", 1.0));
+  if (stage.name == "donnybrook") {
+    auto first = build_inner(), second = build_inner();
+    return make_donnybrook(std::move(first), std::move(second), make_scheme("owner", settings),
+                           static_cast<std::uint32_t>(stage.parameter("k", 5.0)),
+                           static_cast<unsigned>(stage.parameter("guidance", 5.0)));
+  }
+  if (stage.name == "von") return make_von(build_inner(), stage.parameter("area", 1.0));
   if (is_rank(stage))
     return make_rank(build_inner(),
                      stage.name == "top" ? build_function(stage, settings) : make_nearness(),
@@ -130,6 +137,8 @@ std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterS
   FilterSettings own = settings;
   own.cell_size = expression.parameter("cell_size", settings.cell_size);
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
+  own.nimbus_radius = expression.parameter("radius", settings.nimbus_radius);
+  own.awareness = expression.parameter("awareness", settings.awareness);
   auto scheme = make_scheme(expression.name, own);
   assert(scheme != nullptr);  // judged names are registered
   return scheme;

@@ -13,7 +13,8 @@ namespace rink::im {
 /// True of the stages that choose among a subscriber's entities, by what holds at that instant.
 inline bool is_rank(const Expression& expression) {
   return expression.kind == Expression::Kind::stage &&
-         (expression.name == "nearest" || expression.name == "psense" || expression.name == "top");
+         (expression.name == "nearest" || expression.name == "psense" || expression.name == "top" ||
+          expression.name == "von");
 }
 
 /// A part that a combination takes as one operand.

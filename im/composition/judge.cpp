@@ -26,6 +26,8 @@ struct Key {
 };
 constexpr double metres_max = 1e9;
 constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, false},
+                          Key{"donnybrook", "guidance", 1.0, 6.0, true, false, false},
+                          Key{"donnybrook", "k", 1.0, 1e6, true, false, false},
                           Key{"dwell", "matches", 1.0, 100'000.0, true, true, false},
                           Key{"grid", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hex", "cell_size", 1e-3, 1e6, false, false, false},
@@ -33,16 +35,20 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"hybrid", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hysteresis", "margin", 0.0, metres_max, false, true, false},
                           Key{"nearest", "k", 1.0, 1e6, true, true, false},
+                          Key{"nimbus", "awareness", 0.0, 1.0, false, false, false},
+                          Key{"nimbus", "radius", 1e-3, metres_max, false, false, false},
                           Key{"priority", "budget", 1.0, metres_max, true, false, false},
                           Key{"psense", "vision", 1e-6, 1.0, false, false, false},
+                          Key{"pvs", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"strips", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"swept", "disc", 0.0, 1.0, true, false, false},
                           Key{"swept", "drag", 0.0, 1e6, false, false, false},
                           Key{"swept", "horizon", 0.0, 1e6, false, true, false},
                           Key{"tiers", "at", 1e-6, 1.0, false, true, true},
-                          Key{"top", "k", 1.0, 1e6, true, true, false}};
-constexpr std::array stages{"dwell",  "hysteresis", "nearest", "priority",
-                            "psense", "swept",      "tiers",   "top"};
+                          Key{"top", "k", 1.0, 1e6, true, true, false},
+                          Key{"von", "area", 0.0, 1.0, false, false, false}};
+constexpr std::array stages{"donnybrook", "dwell", "hysteresis", "nearest", "priority",
+                            "psense",     "swept", "tiers",      "top",     "von"};
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -109,6 +115,10 @@ std::string judge_settings(const FilterSettings& settings) {
     return describe({Fault::bad_cell_size, Subject::cells});
   if (!(settings.half_angle_deg >= 0.0 && settings.half_angle_deg <= 180.0))
     return "the half angle of a view is not a number from 0 to 180";
+  if (!(settings.nimbus_radius >= 0.0) || !std::isfinite(settings.nimbus_radius))
+    return "the radius of nimbi is not a finite number from 0";
+  if (!(settings.awareness >= 0.0 && settings.awareness <= 1.0))
+    return "the awareness at which an entity matters is not a number from 0 to 1";
   if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag))
     return "the drag of flights is not a finite number from 0";
   for (std::size_t i = 0; i < settings.posts.size(); ++i) {
@@ -185,12 +195,11 @@ std::string judge_own(const Expression& expression, Expression::Place* place = n
     return "more than 15 schemes in one combination";
   }
   for (const Expression& operand : expression.operands) {
-    const bool is_last =
-        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "priority");
-    const bool is_tiers_in_priority = expression.name == "priority" && operand.name == "tiers";
-    if (is_last && !is_tiers_in_priority)
-      return "after " + operand.name + " nothing may follow" +
-             (operand.name == "tiers" ? " but priority" : "") +
+    const bool has_tiers =
+        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "donnybrook");
+    const bool is_last = has_tiers || (operand.kind == Kind::stage && operand.name == "priority");
+    if (is_last && !(has_tiers && expression.name == "priority"))
+      return "after " + operand.name + " nothing may follow" + (has_tiers ? " but priority" : "") +
              ": it decides more than whether a pair is relevant";
   }
   return {};

@@ -7,13 +7,10 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "im/composition/parts.h"
-#include "im/pairs/parties.h"
-#include "im/schemes/candidate_pairs.h"
+#include "im/stages/chooser.h"
 #include "im/stages/stages.h"
 
 namespace rink::im {
@@ -31,41 +28,11 @@ std::size_t sector_of(double x, double y) {
   return 2 * quarter + (y >= x ? 1 : 0);
 }
 
-/// Chooses among a subscriber's list anew when it, or one of its entities, moved, came or went.
-class PSense final : public Parts {
+class PSense final : public Chooser {
  public:
-  PSense(std::vector<std::unique_ptr<Filter>> inner, double vision)
-      : Parts(std::move(inner)), vision_(vision), entities_(PairUses{}), subscribers_(PairUses{}) {
-    assert(parts_.size() == 1 && vision_ > 0.0 && vision_ <= 1.0);
-  }
-
-  void set_update_region(Entity entity, const Region& region) override {
-    if (entities_.place(entity, region)) pairs_.touch_near(entity);
-    Parts::set_update_region(entity, region);
-  }
-  void set_subscription_region(Subscriber subscriber, const Region& region) override {
-    if (subscribers_.place(subscriber, region)) pairs_.touch(subscriber);
-    Parts::set_subscription_region(subscriber, region);
-  }
-  void remove_entity(Entity entity) override {
-    Parts::remove_entity(entity);
-    pairs_.touch_near(entity);
-    entities_.remove(entity);
-    pairs_.remove_entity(entity);
-  }
-  void remove_subscriber(Subscriber subscriber) override {
-    Parts::remove_subscriber(subscriber);
-    subscribers_.remove(subscriber);
-    pairs_.remove_subscriber(subscriber);
-  }
-  std::span<const Change> match() override {
-    pairs_.visit_touched(parts_.front()->match(),
-                         [this](Subscriber subscriber, const CandidatePairs::List& list) {
-                           choose(subscriber, list);
-                         });
-    changes_.clear();
-    pairs_.report(changes_);
-    return reported(changes_.span());
+  PSense(std::unique_ptr<Filter> inner, double vision)
+      : Chooser(std::move(inner), {}), vision_(vision) {
+    assert(vision_ > 0.0 && vision_ <= 1.0);
   }
   void list_counts(std::vector<StageCount>& counts) const override {
     Parts::list_counts(counts);
@@ -80,20 +47,17 @@ class PSense final : public Parts {
   };
 
   /// The list ascends by id, so of sensors equally near the first found has the smaller id.
-  void choose(Subscriber subscriber, const CandidatePairs::List& list) {
-    if (list.size() == 0) return;
+  void choose(Subscriber subscriber, const CandidatePairs::List& list) override {
     const rink_party& me = subscribers_.data()[subscriber];
     const double range = vision_ * (0.5 * std::min(me.high_x - me.low_x, me.high_y - me.low_y));
     constexpr Sensor none{std::numeric_limits<std::size_t>::max(), 0.0};
     std::array<Sensor, sector_count> sensors;
     sensors.fill(none);
-    is_chosen_.assign(list.size(), false);
-    std::size_t chosen = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
       const rink_party& its = entities_.data()[list.entity(i)];
       const double x = its.x - me.x, y = its.y - me.y, distance_squared = x * x + y * y;
       if (distance_squared <= range * range) {
-        is_chosen_[i] = true, ++chosen;
+        is_chosen_[i] = true;
         continue;
       }
       Sensor& sensor = sensors[sector_of(x, y)];
@@ -101,24 +65,18 @@ class PSense final : public Parts {
         sensor = {i, distance_squared};
     }
     for (const Sensor& sensor : sensors)
-      if (sensor.place != none.place) is_chosen_[sensor.place] = true, ++chosen, ++sensors_;
-    for (std::size_t i = 0; i < list.size(); ++i) pairs_.decide(subscriber, i, is_chosen_[i], 0.0f);
-    pairs_tested_ += list.size(), left_out_ += list.size() - chosen;
+      if (sensor.place != none.place) is_chosen_[sensor.place] = true, ++sensors_;
+    pairs_tested_ += list.size();
   }
 
   double vision_;
-  Parties entities_, subscribers_;
-  CandidatePairs pairs_;
-  std::vector<bool> is_chosen_;
-  std::uint64_t sensors_ = 0, left_out_ = 0;
+  std::uint64_t sensors_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<Filter> make_psense(std::unique_ptr<Filter> inner, double vision) {
-  std::vector<std::unique_ptr<Filter>> parts;
-  parts.push_back(std::move(inner));
-  return std::make_unique<PSense>(std::move(parts), vision);
+  return std::make_unique<PSense>(std::move(inner), vision);
 }
 
 }  // namespace rink::im

@@ -42,6 +42,20 @@ std::unique_ptr<Filter> make_rank(std::unique_ptr<Filter> inner,
 /// nearest one beyond in each of eight sectors, of equals the smaller id (Schmieg et al. 2008).
 std::unique_ptr<Filter> make_psense(std::unique_ptr<Filter> inner, double vision);
 
+/// Of the relevant entities of each subscriber only those stay so that are within `area`, a share
+/// (0 to 1) of the subscription's disc, by their middles, its own ones, and those whose regions
+/// touch the subscriber's in the Voronoi diagram of all middles but its own ones' (Hu, Chen & Chen
+/// 2006).
+std::unique_ptr<Filter> make_von(std::unique_ptr<Filter> inner, double area);
+
+/// Tier 0: the subscriber's own entities and the `count` others of its list that have most of its
+/// attention, by proximity, aim and recency (Bharambe et al. 2008); tier `guidance_tier` (above 0):
+/// all others. `own` is the scheme `owner`.
+std::unique_ptr<Filter> make_donnybrook(std::unique_ptr<Filter> inner,
+                                        std::unique_ptr<Filter> same_inner,
+                                        std::unique_ptr<Filter> own, std::uint32_t count,
+                                        unsigned guidance_tier);
+
 /// Orders relevant entities by urgency (im/stages/priority_order.h), for senders of at most
 /// `budget` bytes to a subscriber between two matches; 0: no limit.
 std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "im/view/exact.h"
+#include "im/basics/exact.h"
 
 namespace rink::im {
 namespace {

@@ -1,8 +1,8 @@
 // A closed sector of a disc, as a field of view is one, and whether a rectangle touches it.
 #pragma once
 
+#include "im/basics/exact.h"
 #include "im/filter.h"
-#include "im/view/exact.h"
 
 namespace rink::im {
 

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "im/view/exact.h"
+#include "im/basics/exact.h"
 
 namespace rink::im {
 namespace {

@@ -54,11 +54,13 @@ constexpr std::array expressions{"region",
                                  "aura",
                                  "cone",
                                  "sight",
+                                 "pvs(cell_size=0.5)",
                                  "grid(cell_size=0.7)",
                                  "hex",
                                  "hierarchical",
                                  "hybrid",
                                  "diamond",
+                                 "nimbus(radius=1.5 awareness=0.25)",
                                  "strips",
                                  "none",
                                  "team or owner or always",
@@ -66,13 +68,15 @@ constexpr std::array expressions{"region",
                                  "not (region or cone) and not team",
                                  "none with psense",
                                  "hybrid with psense(vision=0.5)",
+                                 "none with von(area=0.5)",
+                                 "none with donnybrook(k=2 guidance=3) with priority",
                                  "region with swept(horizon=0.5 drag=0.25)",
                                  "aura with tiers(at=0.3 at=0.6) with priority",
                                  "region with hysteresis(margin=0.5)",
                                  "cone with dwell(matches=3)",
                                  "(aura or always) with swept(horizon=1 disc=1) with "
                                  "hysteresis(margin=1) with dwell(matches=2) with tiers(at=0.5)"};
-constexpr std::size_t forgetful_count = 16;
+constexpr std::size_t forgetful_count = 19;
 
 im::FilterSettings settings() {
   return {.world = world,

@@ -57,11 +57,11 @@ void tick(Filter& filter, int time) {
 
 TEST(Filter, AllocatesNothingInTheSteadyState) {
   std::vector<std::string> all = filter_names();
-  for (const char* composed :
-       {"aura and not sight", "not (region or cone)",
-        "region with hysteresis(margin=1) with dwell(matches=3)",
-        "aura with swept(horizon=1) with tiers(at=0.3 at=0.6) with priority",
-        "region with psense(vision=0.5)"})
+  for (const char* composed : {"aura and not sight", "not (region or cone)",
+                               "region with hysteresis(margin=1) with dwell(matches=3)",
+                               "aura with swept(horizon=1) with tiers(at=0.3 at=0.6) with priority",
+                               "region with psense(vision=0.5)", "region with von(area=0.5)",
+                               "region with donnybrook(k=3)"})
     all.emplace_back(composed);
   for (const std::string& name : all) {
     const auto filter = make_filter(name, {.world = {0.0, 0.0, 110.0, 100.0}});

@@ -173,7 +173,7 @@ TEST(Expression, IsRefusedByNameWhereItIsWrong) {
   EXPECT_THAT(complaint("aura and nonesuch"),
               HasSubstr("no scheme is called 'nonesuch'; there are always, aura"));
   EXPECT_THAT(complaint("aura with nonesuch"),
-              HasSubstr("no stage is called 'nonesuch'; there are dwell"));
+              HasSubstr("no stage is called 'nonesuch'; there are donnybrook, dwell"));
   EXPECT_THAT(complaint("(aura"), HasSubstr("expected ')'"));
   EXPECT_THAT(complaint("aura)"), HasSubstr("at ')'"));
   EXPECT_EQ(complaint("aura(cell_size=2)"), "aura has no parameter cell_size, nor any other");

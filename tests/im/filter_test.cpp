@@ -30,9 +30,9 @@ INSTANTIATE_TEST_SUITE_P(Filter, TwoSchemes, testing::Values("grid", "region"),
                          [](const auto& info) { return info.param; });
 
 TEST(Filter, IsFoundByItsNameAndOthersAreNot) {
-  EXPECT_THAT(filter_names(),
-              ElementsAre("always", "aura", "cone", "diamond", "grid", "hex", "hierarchical",
-                          "hybrid", "none", "owner", "region", "sight", "strips", "team"));
+  EXPECT_THAT(filter_names(), ElementsAre("always", "aura", "cone", "diamond", "grid", "hex",
+                                          "hierarchical", "hybrid", "nimbus", "none", "owner",
+                                          "pvs", "region", "sight", "strips", "team"));
   for (const std::string& name : filter_names()) EXPECT_TRUE(make_filter(name, {}));
   EXPECT_FALSE(make_filter("nonesuch", {}));
 }

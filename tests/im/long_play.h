@@ -64,6 +64,10 @@ inline FilterSettings settings_for(std::uint64_t seed) {
   FilterSettings settings{.world = {0.0, 0.0, side, side},
                           .cell_size = seed % 2 == 0 ? 1.0 : 0.7,
                           .half_angle_deg = half_angles[seed % half_angles.size()]};
+  // No ratio of quarters comes near the awareness, which decides ties between rounded numbers.
+  constexpr std::array awarenesses{0.0, 0.31415926535897931};
+  settings.nimbus_radius = seed % 3 == 0 ? 0.0 : seed % 3 == 1 ? 1.25 : 4.0;
+  settings.awareness = awarenesses[seed / 3 % awarenesses.size()];
   settings.posts = {{2.0, 2.0, 1.0},   {4.0, 4.0, 0.5},  {8.0, 8.25, 1.5},
                     {12.0, 3.0, 0.25}, {5.0, 12.0, 2.0}, {1.0, 0.5, 0.0}};
   Random random(seed);

@@ -120,12 +120,55 @@ inline bool diamond_touches(const Region& s, const Region& u) {
          std::min(s.high_x - s.low_x, s.high_y - s.low_y) / 2.0;
 }
 
+/// The product of two functions that fall evenly from 1 in the middle of a disc to 0 at its rim is
+/// at least as much as asked, inside of both discs.
+inline bool nimbus_touches(const FilterSettings& settings, const Region& s, const Region& u) {
+  if (!overlap_closed(s, u)) return false;
+  const long double x = middle(u.low_x, u.high_x) - 0.0L - middle(s.low_x, s.high_x),
+                    y = middle(u.low_y, u.high_y) - 0.0L - middle(s.low_y, s.high_y),
+                    squared = x * x + y * y;
+  const long double focus = std::min(s.high_x - 0.0L - s.low_x, s.high_y - 0.0L - s.low_y) / 2.0L,
+                    nimbus = settings.nimbus_radius > 0.0 ? settings.nimbus_radius : focus;
+  if (squared > focus * focus || squared > nimbus * nimbus) return false;
+  const auto share = [&](long double radius) {
+    return squared > 0.0L ? 1.0L - std::sqrt(squared) / radius : 1.0L;
+  };
+  return settings.awareness == 0.0 || share(focus) * share(nimbus) >= settings.awareness;
+}
+
 inline bool strip_touches(const FilterSettings& settings, const Region& s, const Region& u) {
   const auto strip = [&](double coordinate) {
     return std::floor((coordinate - settings.world.low_x) / settings.cell_size);
   };
   const double own = strip(middle(u.low_x, u.high_x));
   return strip(s.low_x) <= own && own <= strip(s.high_x);
+}
+
+/// Rectangles overlap, and of no post all ways between the corners of both middles' cells pass
+/// through the inside, unless a corner of the subscriber's is there.
+inline bool cells_see(const FilterSettings& settings, const Region& s, const Region& u) {
+  if (!overlap_closed(s, u)) return false;
+  const auto cell = [&](const Region& region) -> Region {
+    const auto edge = [&](double coordinate, double origin, double next) {
+      return origin +
+             (std::floor((coordinate - origin) / settings.cell_size) + next) * settings.cell_size;
+    };
+    const double x = middle(region.low_x, region.high_x), y = middle(region.low_y, region.high_y);
+    return {edge(x, settings.world.low_x, 0.0), edge(y, settings.world.low_y, 0.0),
+            edge(x, settings.world.low_x, 1.0), edge(y, settings.world.low_y, 1.0)};
+  };
+  const Region from = cell(s), to = cell(u);
+  return std::none_of(settings.posts.begin(), settings.posts.end(), [&](const Disc& post) {
+    for (const double x : {from.low_x, from.high_x})
+      for (const double y : {from.low_y, from.high_y}) {
+        const Region eye{x, y, x, y};
+        if (is_in_shadow(post, eye, x, y)) return false;
+        for (const double to_x : {to.low_x, to.high_x})
+          for (const double to_y : {to.low_y, to.high_y})
+            if (!is_in_shadow(post, eye, to_x, to_y)) return false;
+      }
+    return true;
+  });
 }
 
 /// What each scheme promises, one pair at a time.
@@ -156,7 +199,9 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
     return
         [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
   if (scheme == "sight") return with_settings(is_in_sight);
+  if (scheme == "pvs") return with_settings(cells_see);
   if (scheme == "diamond") return diamond_touches;
+  if (scheme == "nimbus") return with_settings(nimbus_touches);
   if (scheme == "strips") return with_settings(strip_touches);
   if (scheme == "hex") return with_settings(hexagon_touches);
   return with_settings(grid_touches);

@@ -219,8 +219,9 @@ TEST(SweptShapes, NegateRolesAsEver) {
 TEST(SweptShapes, LeaveNothingBehindWhenAllHaveLanded) {
   std::size_t count = 0;
   for (const std::string scheme :
-       {"region", "aura", "cone", "sight", "diamond", "grid", "hex", "hierarchical", "hybrid",
-        "strips", "aura and not cone", "not region", "region and not (cone or aura)"})
+       {"region", "aura", "cone", "sight", "pvs", "diamond", "nimbus", "grid", "hex",
+        "hierarchical", "hybrid", "strips", "aura and not cone", "not region",
+        "region and not (cone or aura)"})
     for (const bool by_flights : {false, true}) {
       SCOPED_TRACE(scheme + (by_flights ? ", told that they rest" : ", by their regions"));
       const FilterSettings settings = settings_for(5);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "im/view/exact.h"
+#include "im/basics/exact.h"
 #include "im/view/shadow.h"
 #include "tests/im/cases.h"
 #include "tests/im/long_play.h"

@@ -136,7 +136,9 @@ TEST(ReachOfASchemeByTrial, IsNeverLessThanWhatIsLetInAndLittleMore) {
   };
   expect_reach("region", extent, extent);
   expect_reach("region and aura", extent, extent);
-  expect_reach("region with psense(vision=0.5)", extent, extent);
+  for (const char* const within : {"region with psense(vision=0.5)", "region with von(area=0.5)",
+                                   "nimbus", "nimbus(radius=1)"})
+    expect_reach(within, extent, extent);
   for (const double size : {0.3, 0.5, 1.1, 2.0, 3.7}) {
     const std::string cells = "(cell_size=" + std::to_string(size) + ")";
     expect_reach("region or grid" + cells, size, size);
@@ -148,8 +150,9 @@ TEST(ReachOfASchemeByTrial, IsNeverLessThanWhatIsLetInAndLittleMore) {
                  size + extent);
     expect_reach("grid" + cells + " with psense(vision=0.5)", size, size);
   }
-  for (const char* const scheme : {"none", "not region", "aura or always", "region or team",
-                                   "owner", "region with dwell(matches=5)", "none with psense"})
+  for (const char* const scheme :
+       {"none", "not region", "aura or always", "region or team", "owner",
+        "region with dwell(matches=5)", "none with psense", "none with von"})
     expect_reach(scheme, never, never);
 }
 

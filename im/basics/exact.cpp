@@ -1,5 +1,5 @@
 // Adds and multiplies expansions, part by part.
-#include "im/view/exact.h"
+#include "im/basics/exact.h"
 
 #include "im/basics/checked.h"
 

@@ -12,21 +12,11 @@
 
 #include "im/expression_fault.h"
 #include "tests/im/cases.h"
-#include "tests/im/long_play.h"
+#include "tests/im/published/whole_play.h"
 #include "tests/im/stage_counts.h"
 
 namespace rink::im {
 namespace {
-
-struct Offset {
-  double x, y;
-  double squared() const { return x * x + y * y; }
-};
-
-Offset offset_of(const Region& s, const Region& u) {
-  return {middle(u.low_x, u.high_x) - middle(s.low_x, s.high_x),
-          middle(u.low_y, u.high_y) - middle(s.low_y, s.high_y)};
-}
 
 bool is_near(const Region& s, const Offset& offset, double vision) {
   const double range = vision * (std::min(s.high_x - s.low_x, s.high_y - s.low_y) / 2.0);
@@ -79,49 +69,27 @@ bool is_near_or_sensor(const Judged& judged, const Relevant& inner, double visio
   return false;
 }
 
-void expect_definition(const std::string& inner, double vision, std::uint64_t first,
-                       std::uint64_t count, int matches) {
-  for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const FilterSettings settings = settings_for(seed);
-    const Relevant rule = rule_of(inner, settings);
-    const std::string text = inner + " with psense(vision=" + std::to_string(vision) + ")";
-    for (const Layout& layout : layouts) {
-      SCOPED_TRACE(text + " on " + layout.name + " with seed " + std::to_string(seed));
-      const Judged* all = nullptr;
-      Judged judged(make_filter(text, settings), [&](const Observer& me, const Body& its) {
-        return is_near_or_sensor(*all, rule, vision, me, its);
-      });
-      all = &judged;
-      Random random(seed);
-      for (int i = 0; i < matches; ++i) {
-        constexpr std::array activities{1.0, 0.3, 0.05};
-        disturb(judged, random, layout,
-                activities[static_cast<std::size_t>(i) % activities.size()]);
-        judged.check_match();
-        if (testing::Test::HasFatalFailure()) return;
-      }
-    }
-  }
+void expect_near_and_sensors(const std::string& inner, double vision, const Span& seeds) {
+  play_whole(inner + " with psense(vision=" + std::to_string(vision) + ")", seeds,
+             [&](const FilterSettings& settings) {
+               return [rule = rule_of(inner, settings), vision](
+                          const Judged& judged, const Observer& me, const Body& its) {
+                 return is_near_or_sensor(judged, rule, vision, me, its);
+               };
+             });
 }
 
 TEST(PSense, KeepsTheNearAndTheSensorNodesOfThePaper) {
-  expect_definition("none", 1.0, 1, 4, 12);
-  expect_definition("none", 0.25, 11, 4, 12);
-  expect_definition("region", 0.5, 21, 8, 12);
-  expect_definition("aura", 0.75, 31, 4, 12);
-  expect_definition("sight", 0.5, 41, 2, 12);
+  expect_near_and_sensors("none", 1.0, {1, 4, 12});
+  expect_near_and_sensors("none", 0.25, {11, 4, 12});
+  expect_near_and_sensors("region", 0.5, {21, 8, 12});
+  expect_near_and_sensors("aura", 0.75, {31, 4, 12});
+  expect_near_and_sensors("sight", 0.5, {41, 2, 12});
 }
 
-TEST(PSenseLong, KeepsTheNearAndTheSensorNodesOverHundredsOfSeeds) {
-  expect_definition("none", 1.0, 1000, 60, 18);
-  expect_definition("region", 0.5, 2000, 200, 18);
-}
-
-std::set<Entity> told(Filter& filter) {
-  std::set<Entity> entities;
-  for (const Change& change : match(filter))
-    if (change.transition == Transition::entered) entities.insert(change.entity);
-  return entities;
+TEST(PSenseLong, KeepsTheNearAndTheSensorNodesOverManySeeds) {
+  expect_near_and_sensors("none", 1.0, {1000, 20, 18});
+  expect_near_and_sensors("region", 0.5, {2000, 100, 18});
 }
 
 /// A vision range of 2 around (0, 0).
