@@ -29,6 +29,7 @@ struct FederationCounters {
                                         ///< sent; its newest state follows when it does
   std::uint64_t interactions_received = 0, interactions_sent = 0;
   std::uint64_t scope_entries = 0, scope_exits = 0;
+  std::uint64_t entries_held = 0;            ///< of those, whose values the federate held already
   std::uint64_t entries_postponed = 0;       ///< of those, sent by a later flush for want of room
   std::uint64_t ownership_notices_sent = 0;  ///< objects in relevance notices; one with n notices
                                              ///< counts n times

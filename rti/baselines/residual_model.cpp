@@ -86,6 +86,18 @@ std::optional<ResidualChange> ResidualModel::change(const Class& of, std::uint32
                         Bytes(companion->after).subspan(kept.offset, kept.size)};
 }
 
+bool ResidualModel::append(std::uint16_t object_class, AttributeSet set, const FormerValues& former,
+                           std::vector<std::byte>& values) const {
+  const Class& of = classes_[object_class];
+  if (!former.held.includes(set)) return false;
+  for (const AttributeHandle each : set) {
+    const Kept& kept = of.attributes[each.value];
+    const Bytes value = Bytes(former.bytes).subspan(kept.offset, kept.size);
+    values.insert(values.end(), value.begin(), value.end());
+  }
+  return true;
+}
+
 std::optional<std::uint64_t> ResidualModel::companion_key(std::uint16_t object_class,
                                                           AttributeSet set, Bytes values) const {
   const Class& of = classes_[object_class];

@@ -50,6 +50,9 @@ class ResidualModel {
 
   /// Notes the values of `set`, as in memory.
   void keep(std::uint16_t object_class, AttributeSet set, Bytes values, FormerValues& former) const;
+  /// Appends the values of `set`, as in memory; false if some of them are not held.
+  bool append(std::uint16_t object_class, AttributeSet set, const FormerValues& former,
+              std::vector<std::byte>& values) const;
   /// The key of the first of the values that has one.
   std::optional<std::uint64_t> companion_key(std::uint16_t object_class, AttributeSet set,
                                              Bytes values) const;

@@ -30,6 +30,12 @@ class ResidualStates {
   /// Takes an update of the object in `slot`, whose values are as they travel. The residual is
   /// valid until the next call.
   Residual take(const Object& object, ObjectSlot slot, AttributeSet set, double time, Bytes coded);
+  /// True if every federate that was sent all updates of the object by the stream holds the newest
+  /// values of `set`.
+  bool holds(const Object& object, ObjectSlot slot, AttributeSet set) const {
+    if (slot >= states_.size() || states_[slot].object != object.handle) return false;
+    return !states_[slot].is_barred && states_[slot].former.held.includes(set);
+  }
   /// The owner took values back: the next update of `set` travels whole.
   void forget(const Object& object, ObjectSlot slot, AttributeSet set) {
     State& state = this->state(object, slot);

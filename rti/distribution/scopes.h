@@ -29,8 +29,8 @@ struct FederateInterest {
   Bitmap needs_full_state;  ///< came into scope since the last flush: the full state is due
   bool needs_any_full_state = false;
   Bitmap holds_static;  ///< objects whose static values it was sent since it discovered them
-  Bitmap holds_former;  ///< of those in scope whose full state is not due, the objects to whose
-                        ///< values at the federate residuals may refer
+  Bitmap holds_former;  ///< objects whose newest values it was sent by the stream: residuals may
+                        ///< refer to them, and back in scope they need not be sent again
   std::vector<ScopeEvent> events;  ///< since the last flush
   Bitmap unannounced;  ///< in scope, to be announced by a later flush; they keep `needs_full_state`
                        ///< until then

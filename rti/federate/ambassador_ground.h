@@ -7,6 +7,7 @@
 #include "rti/federate/books/ownership_book.h"
 #include "rti/federate/delivery/callback_gate.h"
 #include "rti/federate/delivery/link_watch.h"
+#include "rti/federate/delivery/postponed_messages.h"
 #include "rti/federate/delivery/residual_reader.h"
 #include "rti/federate/delivery/sent_updates.h"
 #include "rti/federate/delivery/update_arrivals.h"
@@ -26,7 +27,8 @@ struct AmbassadorGround {
         sent(fom),
         arrivals(fom),
         ownership(basis(), objects, regions),
-        residuals(basis(), objects, arrivals) {}
+        residuals(basis(), objects, arrivals),
+        postponed(fom) {}
   AmbassadorGround(const AmbassadorGround&) = delete;
   AmbassadorGround& operator=(const AmbassadorGround&) = delete;
 
@@ -45,6 +47,7 @@ struct AmbassadorGround {
   UpdateArrivals arrivals;
   OwnershipBook ownership;
   ResidualReader residuals;
+  PostponedMessages postponed;
 };
 
 }  // namespace rink::rti

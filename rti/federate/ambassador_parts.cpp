@@ -31,7 +31,8 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
       update_receiver(ground.basis(), ground.objects, ground.arrivals, ground.residuals),
       keyframes(ground.basis(), ground.objects, ground.arrivals),
       datagrams(ground.basis(), {ground.watch, ground.arrivals, update_receiver, sender}),
-      postponed_(fom) {}
+      entries_(ground.basis(),
+               {ground.objects, objects, update_receiver, ground.residuals, ground.postponed}) {}
 
 void AmbassadorParts::join(std::string_view federation, std::string_view federate_name,
                            std::string_view federate_type) {
@@ -69,7 +70,7 @@ bool AmbassadorParts::handle_bytes(Bytes bytes) {
 bool AmbassadorParts::handle_frame(Bytes frame) {
   ++ground.counters.frames_received;
   if (ground.phase.is_joined()) ground.arrivals.count_frame();
-  if (!postponed_.is_empty() && !release_postponed()) return false;
+  if (!ground.postponed.is_empty() && !release_postponed()) return false;
   ReadContext context;
   Reader reader(frame);
   while (!reader.is_at_end() && !ground.phase.has_ended())
@@ -83,20 +84,19 @@ bool AmbassadorParts::handle_message(Reader& reader, ReadContext& context) {
   std::uint8_t number = 0;
   reader.number(number);
   const auto kind = static_cast<MessageKind>(number);
-  if (time.clock().holds_receive_order() && context.timed == nullptr && is_receive_ordered(kind))
-    return postpone(reader, kind, context);
+  if (is_postponing(context) && is_receive_ordered(kind)) return postpone(reader, kind, context);
   return dispatch(kind, reader, context);
 }
 
 bool AmbassadorParts::postpone(Reader& reader, MessageKind kind, const ReadContext& context) {
-  const bool is_read = postponed_.keep(reader, kind, context);
-  if (postponed_.is_overfull()) lose("more to tell than a federate that never advances is kept");
+  const bool is_read = ground.postponed.keep(reader, kind, context);
+  lose_if_overfull();
   return is_read;
 }
 
 bool AmbassadorParts::release_postponed() {
   if (time.clock().holds_receive_order()) return true;
-  const std::vector<std::byte> messages = postponed_.take();
+  const std::vector<std::byte> messages = ground.postponed.take();
   Reader reader(messages);
   ReadContext context;
   while (!reader.is_at_end() && ground.phase.is_joined())
@@ -139,6 +139,18 @@ bool AmbassadorParts::handle_timed(Reader& reader, const ReadContext& context) {
          (content.is_at_end() || !ground.phase.is_joined());
 }
 
+bool AmbassadorParts::handle_entries(Reader& reader, const ReadContext& context, bool is_again) {
+  const bool is_read = is_again ? entries_.handle_again(reader, context, is_postponing(context))
+                                : entries_.handle(reader, context, is_postponing(context));
+  lose_if_overfull();
+  return is_read;
+}
+
+void AmbassadorParts::lose_if_overfull() {
+  if (ground.postponed.is_overfull())
+    lose("more to tell than a federate that never advances is kept");
+}
+
 void AmbassadorParts::lose(std::string_view why) {
   if (ground.phase.has_ended() || (ground.phase.is_idle() && !questions.has_asked())) return;
   if (!ground.gate.is_open()) return ground.gate.hold_loss(why);
@@ -176,7 +188,7 @@ void AmbassadorParts::clear_outgoing() {
 void AmbassadorParts::advance_clock(double now) {
   ground.watch.advance(now, !ground.frames.is_empty());
   if (ground.phase.is_joined()) sender.repair();
-  if (!postponed_.is_empty()) release_postponed();
+  if (!ground.postponed.is_empty()) release_postponed();
   if (!ground.phase.may_send()) return;
   datagrams.advance_clock();
   if (ground.watch.is_rti_lost()) return lose("the RTI has been silent for too long");
@@ -210,9 +222,9 @@ std::size_t AmbassadorParts::memory_bytes() const {
                               sparing.memory_bytes() + updates.memory_bytes() +
                               regions.memory_bytes() + time.memory_bytes();
   const std::size_t receiving = ground.gate.memory_bytes() + incoming_.memory_bytes() +
-                                postponed_.memory_bytes() + update_receiver.memory_bytes() +
-                                keyframes.memory_bytes() + datagrams.memory_bytes() +
-                                ground.residuals.memory_bytes();
+                                ground.postponed.memory_bytes() + entries_.memory_bytes() +
+                                update_receiver.memory_bytes() + keyframes.memory_bytes() +
+                                datagrams.memory_bytes() + ground.residuals.memory_bytes();
   return books + sending + receiving;
 }
 

@@ -7,8 +7,8 @@
 
 #include "rti/federate/ambassador_ground.h"
 #include "rti/federate/delivery/datagram_receiver.h"
+#include "rti/federate/delivery/entry_reader.h"
 #include "rti/federate/delivery/keyframe_reader.h"
-#include "rti/federate/delivery/postponed_messages.h"
 #include "rti/federate/delivery/update_receiver.h"
 #include "rti/federate/services/federate_ownership.h"
 #include "rti/federate/services/federate_regions.h"
@@ -48,6 +48,7 @@ class AmbassadorParts final {
   bool handle_joined(Reader& reader);
   bool handle_expelled(Reader& reader);
   bool handle_timed(Reader& reader, const ReadContext& context);
+  bool handle_entries(Reader& reader, const ReadContext& context, bool is_again);
 
   AmbassadorGround ground;
   FomLookup lookup;
@@ -77,8 +78,14 @@ class AmbassadorParts final {
   bool dispatch(MessageKind kind, Reader& reader, ReadContext& context);
   bool postpone(Reader& reader, MessageKind kind, const ReadContext& context);
   bool release_postponed();
+  void lose_if_overfull();
 
-  PostponedMessages postponed_;
+  /// True if messages in receive order wait now.
+  bool is_postponing(const ReadContext& context) const {
+    return time.clock().holds_receive_order() && context.timed == nullptr;
+  }
+
+  EntryReader entries_;
   FrameReader incoming_;
 };
 

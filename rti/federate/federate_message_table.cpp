@@ -132,6 +132,12 @@ class FederateMessageTable {
     at(Kind::in_scope) = [](Parts& parts, Reader& reader, ReadContext&) {
       return parts.objects.handle_scope(reader, true);
     };
+    at(Kind::entries) = [](Parts& parts, Reader& reader, ReadContext& context) {
+      return parts.handle_entries(reader, context, false);
+    };
+    at(Kind::entries_again) = [](Parts& parts, Reader& reader, ReadContext& context) {
+      return parts.handle_entries(reader, context, true);
+    };
     at(Kind::out_of_scope) = [](Parts& parts, Reader& reader, ReadContext&) {
       return parts.objects.handle_scope(reader, false);
     };

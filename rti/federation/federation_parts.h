@@ -59,6 +59,7 @@ class FederationParts final : private FrameHandler {
   PeriodicWriter periodic;
   TurnWriter turns;
   ResidualWriter residuals;
+  EntryWriter entries;
   UpdateRates rates;
   Sender sender;
   TimeService time;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "rti/baselines/entry_values.h"
 #include "rti/distribution/data_distribution.h"
 #include "rti/federate_ambassador.h"
 #include "rti/federation/datagram_channel.h"
@@ -20,6 +21,7 @@
 #include "rti/ownership/holding.h"
 #include "rti/types.h"
 #include "rti/wire/bytes.h"
+#include "rti/wire/entry_block.h"
 #include "rti/wire/stamp_steps.h"
 
 namespace rink::rti {
@@ -38,6 +40,8 @@ struct JoinedFederate {
   FederateCounts counts;         ///< what is counted as it happens; `report` adds the rest
   std::uint32_t frames = 0;      ///< sent to it
   StampSteps stamp_steps;        ///< of these frames
+  EntryValues entry_values;      ///< of entries in these frames
+  EntryHeader entry_header;      ///< of the last block of entries in these frames
   bool has_stream_only = false;  ///< no datagrams, whatever its connection could carry
   std::unique_ptr<DatagramChannel> channel;  ///< null until it has one
 };

@@ -21,7 +21,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 10;
+inline constexpr std::uint16_t protocol_version = 11;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
@@ -115,6 +115,8 @@ enum class MessageKind : std::uint8_t {
   deltas = 111,
   residuals = 114,
   stamp_step = 115,
+  entries = 116,
+  entries_again = 117,
   ownership_notice = 92,
   inform_ownership = 93,
   // admission
@@ -130,7 +132,7 @@ enum class MessageKind : std::uint8_t {
   object_relevance = 106,
   transportation = 107,
   // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and
-  // declarations, 116 and 117 regions, 123 to 127 the connection
+  // declarations, 123 to 127 the connection
 };
 
 /// Bytes of `message` with its kind.
@@ -221,6 +223,20 @@ template <class Stream>
 bool exchange(Stream& stream, UpdatesMessage& message) {
   return stream.varint(message.object_class) && attribute_bits(stream, message.attributes);
 }
+/// Begins a block of objects that come into scope with these attributes (rti/wire/entry_block.h).
+/// Values of the repeated ones do not follow: they are those of the class's last entry.
+struct EntriesMessage {
+  static constexpr MessageKind kind = MessageKind::entries;
+  std::uint16_t object_class = 0;
+  AttributeBits attributes = 0, repeated = 0;
+  friend bool operator==(const EntriesMessage&, const EntriesMessage&) = default;
+};
+template <class Stream>
+bool exchange(Stream& stream, EntriesMessage& message) {
+  return stream.varint(message.object_class) && attribute_bits(stream, message.attributes) &&
+         attribute_bits(stream, message.repeated);
+}
+using EntriesAgainMessage = BareMessage<MessageKind::entries_again>;
 
 /// Upwards `federate` is the only receiver, or all ones for every subscriber; downwards it is the
 /// sender.

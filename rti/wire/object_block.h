@@ -13,6 +13,18 @@ namespace rink::rti {
 /// Most bytes that an object adds to a block, its end included.
 inline constexpr std::size_t object_record_max = 5 + 1;
 
+/// The handle before the first of a block of changes of scope: most are of objects that the first
+/// federate registered.
+inline constexpr std::uint32_t first_in_scope_block = object_block;
+
+/// The handle before the first of a block with this header.
+template <class Header>
+constexpr std::uint32_t before_first() {
+  constexpr bool is_scope =
+      Header::kind == MessageKind::in_scope || Header::kind == MessageKind::out_of_scope;
+  return is_scope ? first_in_scope_block : 0;
+}
+
 /// Writes blocks: a header, then the step to each object, then a zero. An object joins the block
 /// before it if that stands at the end of the buffer and has an equal header, so that a message
 /// about each of a thousand bodies takes a thousand bytes and callers need no bulk form.
@@ -28,7 +40,7 @@ class ObjectBlockWriter {
     } else {
       bytes.insert(bytes.end(), scratch_.begin(), scratch_.end());
       header_.swap(scratch_);
-      previous_ = 0;
+      previous_ = before_first<Header>();
     }
     write_handle(bytes, previous_, object);
     bytes.push_back(std::byte{0});
@@ -45,10 +57,10 @@ class ObjectBlockWriter {
 };
 
 /// Calls `take(object)` for each object of the block whose header was read; `take` returns false to
-/// stop. False if the block is malformed or was stopped.
+/// stop. False if the block is malformed or was stopped. `previous` is the handle before the first.
 template <class Take>
-bool read_objects(Reader& reader, Take take) {
-  HandleReader handles;
+bool read_objects(Reader& reader, Take take, std::uint32_t previous = 0) {
+  HandleReader handles(previous);
   for (;;) {
     std::uint32_t handle = 0;
     const HandleReader::Next next = handles.next(reader, handle);

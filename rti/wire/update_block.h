@@ -39,6 +39,7 @@ inline void write_handle(std::vector<std::byte>& bytes, std::uint32_t previous,
 class HandleReader {
  public:
   enum class Next : std::uint8_t { handle, end, malformed };
+  explicit HandleReader(std::uint32_t previous = 0) : previous_(previous) {}
   Next next(Reader& reader, std::uint32_t& handle) {
     std::uint64_t step = 0;
     if (!reader.varint(step)) return Next::malformed;
@@ -49,7 +50,7 @@ class HandleReader {
   }
 
  private:
-  std::uint32_t previous_ = 0;
+  std::uint32_t previous_;
 };
 
 /// Appends records to `bytes`, gathered in small parts since a vector grows slowly byte by byte.

@@ -22,13 +22,13 @@ Hashes sail(const Course& course, std::uint64_t seed = 1) {
 
 TEST(ConversationHashes, OfDeclarations) {
   EXPECT_EQ(sail({{declare, declare, declare, register_one, update, say}, stand_by}),
-            (Hashes{0x389a6f3ad939a045u, 0x607282f60a9eb8cfu, 0x244f55c920508e6eu,
-                    0xf23516c6564a5284u, 0x1b12f140e8d4be7du, 0x9f625bde6da761b5u}));
+            (Hashes{0x963372a6b5f65b67u, 0xc7252664c58b9fefu, 0xde165ed1bd644377u,
+                    0x5d44ca3ea4b90cfdu, 0x39506b6a4e7faa59u, 0x1d5f77c21dbbac5eu}));
 }
 TEST(ConversationHashes, OfObjects) {
   EXPECT_EQ(sail({{register_one, update, update, delete_one, name, ask}}),
-            (Hashes{0x195256915bc282c6u, 0x1c4a5019b840479du, 0x30e7e75a376a9d2fu,
-                    0xa764d4f40ca04996u, 0xcf1ca215292a85a7u, 0xf1570c8395cc9bf9u}));
+            (Hashes{0x78e561668e9e66f3u, 0x32d378f3796b3e98u, 0x41691d88b98f01e0u,
+                    0x708676a37a1e7cdeu, 0x48d6c9a3ea4379f9u, 0x35322ae7074bdac2u}));
 }
 TEST(ConversationHashes, OfInteractions) {
   EXPECT_EQ(sail({{say, say, say, declare}, prepare, 200}),
@@ -37,13 +37,13 @@ TEST(ConversationHashes, OfInteractions) {
 }
 TEST(ConversationHashes, OfOwnership) {
   EXPECT_EQ(sail({{trade, trade, trade, trade, register_one, update, declare}}),
-            (Hashes{0x7755c8d5200898a3u, 0xd71f2b5840f2f8f8u, 0x4dae20759e5b9fccu,
-                    0x77aea44d981c6e15u, 0x3913b95b3269dd0au, 0x63f72bc8587c8f82u}));
+            (Hashes{0x9e1fb5c7105526a6u, 0x3c7240a2a6d6ded2u, 0x5de2db5b4351ec9du,
+                    0x0fddd5a4edba4712u, 0x92e3ffbee00117b9u, 0x5ce77dcaf48c100du}));
 }
 TEST(ConversationHashes, OfLeaving) {
   EXPECT_EQ(sail({{register_one, trade, trade, update, synchronize, name, watch}, prepare, 12}),
-            (Hashes{0x8538526d46099579u, 0x3066488ab898d647u, 0x18874b94de04e629u,
-                    0xb4cb08afba614ed9u, 0x80e917ecf75f5013u, 0xfa5363e80714355fu}));
+            (Hashes{0x57b3259c3bbb01cdu, 0xc0c21552b32f9373u, 0x6eed399abdbfe525u,
+                    0x3266c7efd5a1b4e5u, 0x6d2cb1bb3226fd3du, 0xc62902517c9f7807u}));
 }
 TEST(ConversationHashes, OfRegions) {
   EXPECT_EQ(sail({{make_region, use_region, use_region, use_region, register_one, update, say},
@@ -52,68 +52,68 @@ TEST(ConversationHashes, OfRegions) {
                   0,
                   false,
                   filtered("region")}),
-            (Hashes{0x7618889c117f2c99u, 0x1725cad23688443fu, 0xc3471bf35763c0a9u,
-                    0xa09dbaf36e99b9e8u, 0x3c23386b8e646deeu, 0x9bbdfe1e23a2f609u}));
+            (Hashes{0x7c9e74d7d0141d78u, 0x76a26b10b924bbe4u, 0xf12c3ec99b90d936u,
+                    0x1dc5ba64e3729132u, 0x8d6d7acd06e03173u, 0x9c24e6369d799855u}));
   EXPECT_EQ(sail({{make_region, use_region, use_region, register_one, update, declare, trade},
                   prepare,
                   40,
                   0,
                   false,
                   filtered("region")}),
-            (Hashes{0xd3387f56cfafb8b4u, 0xba4cb7f922f47fe0u, 0xb857abae09c9ca20u,
-                    0xaf1d2d2e8ca33c5cu, 0xc63c957f62fb7065u, 0x0731b63d5f41a27fu}));
+            (Hashes{0x7a8ec588a32aa166u, 0xd91d190f1aa49de5u, 0x09e2ef35ed58720au,
+                    0x07b8f060ea91668bu, 0x6909f0313aac5092u, 0x92b180ea7855d64bu}));
 }
 TEST(ConversationHashes, OfTiersAndBudgets) {
   const std::vector<Service> services{make_region, use_region, use_region,  use_region,
                                       update,      update,     register_one};
   EXPECT_EQ(sail({services, publish_all, 0, 0, false,
                   filtered("region with tiers(at=0.25 at=0.5 at=0.75)")}),
-            (Hashes{0x9c57af9964aea61eu, 0x0b3c88a1cf3cc0a9u, 0x05baf9d95dcaef41u,
-                    0x4a8ce16ff55e82f5u, 0xd9a0fe8a1923d5a3u, 0xde780b39e82623c0u}));
+            (Hashes{0xc2794ba84adee959u, 0x2a227ac5ed7fd206u, 0x13cdc409a3378489u,
+                    0x27927e014eba353fu, 0x5a80d9b0aff751e7u, 0xc419312987f4686au}));
   EXPECT_EQ(
       sail({services, publish_all, 60, 300, true, filtered("region with priority(budget=60)")}),
-      (Hashes{0x953a06dc3838a5bfu, 0xde4fd5ee7fa556bfu, 0x164349490e27fd1cu, 0x8f3c608c9d196547u,
-              0x1dc1422f6ee63c83u, 0x3578073de9bfe9e5u}));
+      (Hashes{0x788a9d7390352ea6u, 0x65399ed78bdd2745u, 0x7802f6c48e9e1202u, 0x99e0c2e9c1a16eb2u,
+              0x205f988a2f9fac0bu, 0xfa997123d2b2871bu}));
 }
 TEST(ConversationHashes, OfTimeManagement) {
   const std::vector<Service> services{keep_time,   keep_time,    keep_time,  say_in_time,
                                       say_in_time, register_one, delete_one, update};
   EXPECT_EQ(sail({services}),
-            (Hashes{0x026c2599f25875a3u, 0x87a7c7386213c06du, 0xac10f68445e061a2u,
-                    0x7cd99312c6b15fd4u, 0x53ba515c14330c1du, 0x92591cee9a1fb651u}));
+            (Hashes{0x408601ccd6d64593u, 0x4157cd22739f0754u, 0xc70f7c3f657e8097u,
+                    0x439ca70c20d17bd7u, 0x48f7a773b20681bau, 0x9ffd4c0dcdf3a365u}));
   EXPECT_EQ(sail({services, prepare, 40}),
-            (Hashes{0x7246619aafcb8ab0u, 0xbd720db9689d1c9du, 0x60928e945bcca5e9u,
-                    0x6c71e552875b5a72u, 0xdd8e6581a851623du, 0x5bea30f49e370f28u}));
+            (Hashes{0xa90ec493749c2412u, 0x754135a67b83e8dcu, 0xf40101b5bf5ab266u,
+                    0x9fa346068a73cfa5u, 0x5f3e396163029841u, 0xb45a5577ae969bd5u}));
 }
 TEST(ConversationHashes, OfTimeManagementAmongChangingOwners) {
   EXPECT_EQ(sail({{keep_time, keep_time, say_in_time, register_one, trade, trade, declare, say},
                   prepare,
                   60}),
-            (Hashes{0x7ce69465b96198b0u, 0xfedd4f3a086d7c27u, 0x555ea86dd451410cu,
-                    0xd3f5fe36cf132401u, 0x0fb6e73cc40e80e6u, 0x5f04d77dba86f03fu}));
+            (Hashes{0xd97cae39093dbe56u, 0xc425d51bfa0b6f87u, 0x2f2ee2d4b34666cdu,
+                    0x7620276f609539bfu, 0xd45a09501af1c8acu, 0x744734e5dd3f38d9u}));
 }
 TEST(ConversationHashes, OfBestEffort) {
   const std::vector<Service> services{register_one, update,    update,     update,
                                       update,       transport, delete_one, say};
   EXPECT_EQ(sail({services, prepare, 0, 400}),
-            (Hashes{0x03af734d124b99c4u, 0x2f93bcee4cb2e690u, 0x40fa9516dbe3db68u,
-                    0x87f897d23ca8bde8u, 0xa435a08d44d92955u, 0x372a7424d3d43bcbu}));
+            (Hashes{0xadeb51a75f260b76u, 0x628d6f5c95017184u, 0x93e7fcccae4ff741u,
+                    0xba74f45cb1ef98e6u, 0x8cc3a046e82e42c3u, 0x5fc6285a22d07319u}));
   EXPECT_EQ(sail({services, prepare, 30, 300}),
-            (Hashes{0xac2188ffd47b68f7u, 0xebbda14f3a886ce7u, 0x3733bceeaefbf51fu,
-                    0x3a5a734689754874u, 0x5fe66e60fbed2495u, 0xb967ae27cd5ac082u}));
+            (Hashes{0xcb006b78f7b5c80cu, 0x78b1249dc599806du, 0x303bf3ba53d50f0bu,
+                    0x0f155925d0373692u, 0xa7ec5e58a54149cau, 0x853a2938600c2702u}));
 }
 TEST(ConversationHashes, OfManagement) {
   EXPECT_EQ(sail({{manage, manage, declare, register_one, update, say, synchronize}}),
-            (Hashes{0x641902192796a44fu, 0xf6221f6bd85c5c01u, 0x755bd14e456c9d1eu,
-                    0xaa76c9841e12cfbdu, 0xd21ee889b82582b9u, 0xfe8adf9741c42401u}));
+            (Hashes{0xf26a3066b9c0a43fu, 0x05171587409ecd59u, 0x0ef6e0d17073051au,
+                    0x6b41ad4cad8d4a59u, 0xae3c9f75f8d2983cu, 0x174e8b67b3e02761u}));
   EXPECT_EQ(sail({{manage, manage, manage, register_one, keep_time, trade, watch}, prepare, 25}),
-            (Hashes{0xdfc1edf152a17984u, 0xde9f1b31e5355214u, 0x4509be24f7625937u,
-                    0x100f4d7bb825002fu, 0x5d8c72cfa50ac1c5u, 0xcb3542129e82dbccu}));
+            (Hashes{0x7f930219231c7a46u, 0x6ef9d38efd9a2471u, 0xaa75edcfcb985857u,
+                    0xb1bf30fc9049ccd7u, 0x4c81e18f186bfe93u, 0x99ea5d329d7b2c17u}));
 }
 TEST(ConversationHashes, OfThoseWhoDoNotRead) {
   EXPECT_EQ(sail({{register_one, update, update, delete_one, ask, say}, prepare, 50, 0, true}),
-            (Hashes{0x7c637786155e41e1u, 0x9ef5870f4354d2eeu, 0x94612125d5a756d0u,
-                    0x10421c1a2f6dde08u, 0xf028c485db9d5230u, 0x36668c316948da3fu}));
+            (Hashes{0x13f5bf4a8cd1f751u, 0xb6f7190a9710694eu, 0xaf410b8b3bd115d0u,
+                    0x11459dfafbf17985u, 0xfef0df07f06539b8u, 0xdbc68c23de0a9e54u}));
 }
 TEST(ConversationHashes, OfLittleRoom) {
   EXPECT_EQ(sail({{register_one, register_one, update, update, say, delete_one},
@@ -122,16 +122,16 @@ TEST(ConversationHashes, OfLittleRoom) {
                   0,
                   true,
                   cramped()}),
-            (Hashes{0x0aec0bb078bafa87u, 0xe607f3b892772a6fu, 0x719ee0b4c0b3c816u,
-                    0xe254b0dbff5f1d5eu, 0x2a8f01f9cf204dc6u, 0x0a1fb77d9c966adfu}));
+            (Hashes{0x2572487900ce2acbu, 0x04ad08333d782164u, 0x008c3724c6c36090u,
+                    0xdcf2bf36725c7434u, 0x6f083eb64bc894c3u, 0xe2218a024ee231fcu}));
   EXPECT_EQ(sail({{register_one, update, keep_time, keep_time, say_in_time, say_in_time},
                   prepare,
                   80,
                   0,
                   false,
                   cramped()}),
-            (Hashes{0x1fc85a87e2e991deu, 0x0176b3aad843fd00u, 0xb0b119916030e205u,
-                    0x79fde44b1b85638bu, 0x12b9ad3453da67fau, 0x328912d09a741565u}));
+            (Hashes{0x56b3c4f0c56248d9u, 0x9fb9678140b075c9u, 0x678fbac3d0a80657u,
+                    0x0995be42184defa3u, 0x6966dc071717d0acu, 0x9cd36a793e3697eeu}));
 }
 TEST(ConversationHashes, OfEverythingAtOnce) {
   const std::vector<Service> services{declare,     register_one, update,     update,    say,
@@ -140,17 +140,17 @@ TEST(ConversationHashes, OfEverythingAtOnce) {
                                       synchronize, manage,       watch};
   for (const auto& [seed, hashes] : std::vector<std::pair<std::uint64_t, Hashes>>{
            {1,
-            {0x2a4c008f1d2c2b6fu, 0x96b8040567912796u, 0xdd91582ab9a5fe19u, 0x9afbd18b4947f91bu,
-             0x5cac7215d190845du, 0xc185f7cbd98a04c5u}},
+            {0x1cd2eaa8c2042d10u, 0xa8d2452618fd03f0u, 0xa5c1fe3c80a6638bu, 0x03b227aaa39fa1d6u,
+             0x6a0e6d009fb3da35u, 0x910c6affd2a48695u}},
            {2,
-            {0x0bca58e2d05a0574u, 0x9e86563e8ad8c2cfu, 0xbfcda54deae6e1e9u, 0x9c0cc807c8479c10u,
-             0x72db07bd7618d8f0u, 0x39b203949a96463au}},
+            {0x33495bee62737519u, 0x03a1822be8cd08e5u, 0xba1bb46368de983du, 0x2d27be85e80a94cau,
+             0x09a39c735fe0a7e6u, 0xe38999d25e47476du}},
            {3,
-            {0xb9b229d2d2227346u, 0xe7da8aee0a40e138u, 0x733d01c71a9aa38au, 0x9e9c0747f5692217u,
-             0xcd40ee042c1a7023u, 0x4d52ecd13d1ce924u}},
+            {0x73160198ecfeda65u, 0x5a842806449aada3u, 0x3a13a69be7cb3805u, 0xc8d1a7fa5caa19beu,
+             0xfe419dc70275e18du, 0x9ac6c16c1559963fu}},
            {4,
-            {0x97682c58abb40484u, 0x8021f8a9d0af3452u, 0x0f1593648c47264eu, 0x6a7caa1b48615c03u,
-             0xd63771d59fd2106eu, 0x35fbac6228aa0a25u}}})
+            {0xda622d1587cd7041u, 0x15088013216f7bc3u, 0xdb3d976815f2c553u, 0x50170d639ef0b4ebu,
+             0x86ff2511856a6896u, 0x4f029bf63b1e71e7u}}})
     EXPECT_EQ(sail({services, prepare, 60, 350, true, filtered("region")}, seed), hashes) << seed;
 }
 

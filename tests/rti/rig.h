@@ -17,6 +17,7 @@
 #include "rti/transport/in_process.h"
 #include "rti/transport/modelled/network_model.h"
 #include "rti/transport/tcp/tcp.h"
+#include "rti/wire/object_block.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti::testing {
@@ -29,7 +30,7 @@ struct OneObject {
 };
 template <class Stream, MessageKind k>
 bool exchange(Stream& stream, OneObject<k>& message) {
-  std::uint64_t step = handle_step(0, message.object), end = 0;
+  std::uint64_t step = handle_step(before_first<OneObject<k>>(), message.object), end = 0;
   return stream.varint(step) && stream.varint(end);
 }
 

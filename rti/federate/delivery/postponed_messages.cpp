@@ -25,6 +25,15 @@ bool PostponedMessages::keep(Reader& reader, MessageKind kind, const ReadContext
   return true;
 }
 
+void PostponedMessages::keep_values(const Stamp& stamp, const EntriesMessage& block,
+                                    ObjectHandle object, Bytes values) {
+  StampMessage stamped{stamp};
+  UpdatesMessage header{block.object_class, block.attributes};
+  write(bytes_, stamped);
+  write(bytes_, header);
+  RecordWriter(bytes_).add(object.value, values);
+}
+
 /// Steps over a message.
 bool PostponedMessages::skip(Reader& reader, MessageKind kind) const {
   if (kind == MessageKind::updates) {

@@ -17,6 +17,9 @@ class PostponedMessages {
 
   /// Keeps one message, with its stamp if it needs one. False if it is malformed.
   bool keep(Reader& reader, MessageKind kind, const ReadContext& context);
+  /// Keeps the coded values of an object that a block of entries brought, as an update.
+  void keep_values(const Stamp& stamp, const EntriesMessage& block, ObjectHandle object,
+                   Bytes values);
   bool is_empty() const { return bytes_.empty(); }
   /// True if a federate that never advances has let too much wait.
   bool is_overfull() const { return bytes_.size() > size_max; }

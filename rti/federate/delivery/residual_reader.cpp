@@ -60,6 +60,12 @@ bool ResidualReader::read_record(const Block& block, ObjectHandle object,
   return true;
 }
 
+bool ResidualReader::append_held(ObjectHandle object, std::uint16_t object_class,
+                                 AttributeSet attributes, std::vector<std::byte>& values) const {
+  const FormerValues* former = former_.find(object);
+  return former != nullptr && model_.append(object_class, attributes, *former, values);
+}
+
 std::size_t ResidualReader::memory_bytes() const {
   std::size_t size = former_.memory_bytes() + values_.capacity() + change_.before.bytes.capacity() +
                      change_.after.capacity();

@@ -29,6 +29,9 @@ class ResidualReader {
             Bytes values) {
     model_.keep(object_class, attributes, values, former_[object]);
   }
+  /// Appends what was noted of the object; false unless that is all of `attributes`.
+  bool append_held(ObjectHandle object, std::uint16_t object_class, AttributeSet attributes,
+                   std::vector<std::byte>& values) const;
   bool handle(Reader& reader, const ReadContext& context);
   /// The RTI has removed the object.
   void forget(ObjectHandle object) { former_.erase(object); }

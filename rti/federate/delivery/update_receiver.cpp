@@ -29,32 +29,61 @@ bool UpdateReceiver::handle_updates(Reader& reader, const ReadContext& context) 
       message.object_class >= basis_.fom.object_classes().size())
     return false;
   const AttributeSet attributes{message.attributes};
-  const ObjectClassHandle handle{message.object_class};
-  if (!basis_.fom.attributes(handle).includes(attributes)) return false;
-  const ObjectClass& object_class = basis_.fom.at(handle);
-  const bool has_codec = is_coded(object_class, attributes),
-             has_residuals = residuals_.is_concerned(message.object_class, attributes);
-  const Stamp stamp = *context.stamp;
-  const bool is_read =
-      read_records(reader, object_class, attributes, [&](std::uint32_t object, Bytes values) {
-        const KnownObject* known = objects_.find({object});
-        if (known == nullptr) return objects_.is_gone({object});
-        if (known->object_class != message.object_class) return false;
-        if (has_codec) {
-          decoded_.clear();
-          if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
-          values = decoded_;
-        }
-        if (has_residuals) residuals_.keep({object}, message.object_class, attributes, values);
-        ++basis_.counters.updates_reflected;
-        arrivals_.note_from_frame({object}, message.object_class, attributes);
-        if (context.timed != nullptr)
-          basis_.callbacks.reflect_attribute_values_with_time({object}, attributes, values,
-                                                              *context.timed);
-        else basis_.callbacks.reflect_attribute_values({object}, attributes, values, stamp);
-        return basis_.phase.is_joined();
-      });
+  if (!basis_.fom.attributes(ObjectClassHandle{message.object_class}).includes(attributes))
+    return false;
+  const FrameBlock block = frame_block(message.object_class, attributes, context);
+  const bool is_read = read_records(
+      reader, block.of.object_class, attributes,
+      [&](std::uint32_t object, Bytes values) { return reflect(block, {object}, values); });
   return is_read || !basis_.phase.is_joined();
+}
+
+bool UpdateReceiver::reflect_entry(const EntriesMessage& block, ObjectHandle object, Bytes coded,
+                                   const ReadContext& context) {
+  return reflect(frame_block(block.object_class, AttributeSet{block.attributes}, context), object,
+                 coded);
+}
+
+bool UpdateReceiver::reflect_held(const EntriesMessage& block, ObjectHandle object, Bytes values,
+                                  const ReadContext& context) {
+  return deliver(frame_block(block.object_class, AttributeSet{block.attributes}, context), object,
+                 values);
+}
+
+UpdateReceiver::FrameBlock UpdateReceiver::frame_block(std::uint16_t number,
+                                                       AttributeSet attributes,
+                                                       const ReadContext& context) const {
+  const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{number});
+  return {{object_class, attributes, *context.stamp},
+          number,
+          is_coded(object_class, attributes),
+          residuals_.is_concerned(number, attributes),
+          context.timed};
+}
+
+bool UpdateReceiver::reflect(const FrameBlock& block, ObjectHandle object, Bytes values) {
+  const KnownObject* known = objects_.find(object);
+  if (known == nullptr) return objects_.is_gone(object);
+  if (known->object_class != block.number) return false;
+  const auto& [object_class, attributes, stamp] = block.of;
+  if (block.has_codec) {
+    decoded_.clear();
+    if (!decode(object_class, attributes, values, stamp.time, decoded_)) return false;
+    values = decoded_;
+  }
+  if (block.has_residuals) residuals_.keep(object, block.number, attributes, values);
+  return deliver(block, object, values);
+}
+
+/// Of a known object of the block's class.
+bool UpdateReceiver::deliver(const FrameBlock& block, ObjectHandle object, Bytes values) {
+  const auto& [object_class, attributes, stamp] = block.of;
+  ++basis_.counters.updates_reflected;
+  arrivals_.note_from_frame(object, block.number, attributes);
+  if (block.timed != nullptr)
+    basis_.callbacks.reflect_attribute_values_with_time(object, attributes, values, *block.timed);
+  else basis_.callbacks.reflect_attribute_values(object, attributes, values, stamp);
+  return basis_.phase.is_joined();
 }
 
 bool UpdateReceiver::handle_datagram_updates(Reader& reader, const DatagramHead& head,

@@ -24,6 +24,13 @@ class UpdateReceiver {
   bool handle_stamp_step(Reader& reader, ReadContext& context);
   /// Handles updates from a frame, which are newer than all that came before.
   bool handle_updates(Reader& reader, const ReadContext& context);
+  /// Reflects the values of an object that a block of entries brought; false if they are malformed
+  /// or the federate has left.
+  bool reflect_entry(const EntriesMessage& block, ObjectHandle object, Bytes coded,
+                     const ReadContext& context);
+  /// The same of values that are as in memory, since the federate held them.
+  bool reflect_held(const EntriesMessage& block, ObjectHandle object, Bytes values,
+                    const ReadContext& context);
   /// Handles updates from a datagram: of its best-effort values, those that are not older than the
   /// known ones.
   bool handle_datagram_updates(Reader& reader, const DatagramHead& head,
@@ -37,6 +44,17 @@ class UpdateReceiver {
     AttributeSet attributes;
     Stamp stamp;
   };
+  /// What is done with each record of a block from a frame.
+  struct FrameBlock {
+    Block of;
+    std::uint16_t number;  ///< of the class
+    bool has_codec, has_residuals;
+    const TimedStamp* timed;
+  };
+  FrameBlock frame_block(std::uint16_t number, AttributeSet attributes,
+                         const ReadContext& context) const;
+  bool reflect(const FrameBlock& block, ObjectHandle object, Bytes values);
+  bool deliver(const FrameBlock& block, ObjectHandle object, Bytes values);
   bool reflect_datagram(const Block& block, ObjectHandle object, AttributeSet accepted,
                         Bytes values);
   Bytes choose(const Block& block, AttributeSet accepted, Bytes values);

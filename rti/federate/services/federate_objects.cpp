@@ -110,34 +110,42 @@ bool FederateObjects::handle_removal(Reader& reader, const ReadContext& context)
 
 bool FederateObjects::handle_discovery(Reader& reader) {
   DiscoverObjectMessage message;
-  if (!exchange(reader, message)) return false;
-  const ObjectHandle object{message.object};
-  const ObjectClassHandle object_class{message.object_class};
-  if (message.object_class >= basis_.fom.object_classes().size() ||
-      !uses_.book.discover(object, object_class))
+  return exchange(reader, message) &&
+         discover({message.object}, message.object_class, message.name);
+}
+
+bool FederateObjects::discover(ObjectHandle object, std::uint16_t number, std::string_view name) {
+  const ObjectClassHandle object_class{number};
+  if (number >= basis_.fom.object_classes().size() || !uses_.book.discover(object, object_class))
     return false;
   ++basis_.counters.objects_discovered;
-  uses_.names.give(object, message.name);
-  if (!message.name.empty())
-    basis_.callbacks.discover_object_instance(object, object_class, message.name);
+  uses_.names.give(object, name);
+  if (!name.empty()) basis_.callbacks.discover_object_instance(object, object_class, name);
   else
     basis_.callbacks.discover_object_instance(object, object_class, NameBook::default_name(object));
   return true;
 }
 
 bool FederateObjects::handle_scope(Reader& reader, bool is_in) {
-  const bool is_read = read_objects(reader, [&](ObjectHandle object) {
-    const KnownObject* known = uses_.book.find(object);
-    if (known == nullptr) return uses_.book.is_gone(object);
-    ++basis_.counters.scope_changes;
-    if (is_in) uses_.arrivals.enter(object, known->object_class);
-    else uses_.arrivals.leave(object);
-    if (!uses_.declarations.is_on(Advisory::attribute_scope)) return true;
-    if (is_in) basis_.callbacks.attributes_in_scope(object);
-    else basis_.callbacks.attributes_out_of_scope(object);
-    return basis_.phase.is_joined();
-  });
+  const bool is_read = read_objects(
+      reader,
+      [&](ObjectHandle object) {
+        const KnownObject* known = uses_.book.find(object);
+        if (known == nullptr) return uses_.book.is_gone(object);
+        change_scope(object, known->object_class, is_in);
+        return basis_.phase.is_joined();
+      },
+      first_in_scope_block);
   return is_read || !basis_.phase.is_joined();
+}
+
+void FederateObjects::change_scope(ObjectHandle object, std::uint16_t object_class, bool is_in) {
+  ++basis_.counters.scope_changes;
+  if (is_in) uses_.arrivals.enter(object, object_class);
+  else uses_.arrivals.leave(object);
+  if (!uses_.declarations.is_on(Advisory::attribute_scope)) return;
+  if (is_in) basis_.callbacks.attributes_in_scope(object);
+  else basis_.callbacks.attributes_out_of_scope(object);
 }
 
 bool FederateObjects::handle_request(Reader& reader) {

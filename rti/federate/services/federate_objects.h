@@ -43,6 +43,10 @@ class FederateObjects {
   bool handle_removal(Reader& reader, const ReadContext& context);
   bool handle_scope(Reader& reader, bool is_in);
   bool handle_request(Reader& reader);
+  /// Discovers an object; false if that may not be. Without a name it has the default one.
+  bool discover(ObjectHandle object, std::uint16_t object_class, std::string_view name);
+  /// Notes that a known object of the class comes into scope or leaves it.
+  void change_scope(ObjectHandle object, std::uint16_t object_class, bool is_in);
 
  private:
   void forget(ObjectHandle object);

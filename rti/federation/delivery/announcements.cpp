@@ -18,6 +18,7 @@ void enqueue(std::vector<std::byte>& bytes, Message message) {
 
 void Announcements::write(FlushContext& context, std::size_t end) {
   assert(std::ranges::is_sorted(context.interest.sent_now));  // they are looked up
+  assert(gathered_ == 0);
   const std::size_t before = context.frame.size();
   const std::vector<ScopeEvent>& events = context.interest.events;
   block_.close();
@@ -77,12 +78,12 @@ void Announcements::write_postponed(FlushContext& context, std::size_t end) {
   GatheredFrame& frame = context.frame;
   interest.announced_to =
       interest.unannounced.visit_from(interest.announced_to, [&](ObjectSlot object) {
-        if (frame.size() >= end) return false;
+        if (frame.size() + gathered_bytes_max() >= end) return false;
         if (is_too_late(interest, object)) interest.unannounced.erase(object);
-        else announce(context.slot, object, frame.bytes(), block_);
+        else gather(context, object);
         return true;
       });
-  interest.has_unannounced = frame.size() >= end;
+  interest.has_unannounced = frame.size() + gathered_bytes_max() >= end;
 }
 
 void Announcements::write_event(FlushContext& context, const ScopeEvent& event, std::size_t end) {
@@ -93,11 +94,12 @@ void Announcements::write_event(FlushContext& context, const ScopeEvent& event, 
   if (object.object_class == interest.host_served) return;
   if (is_too_late(interest, event.slot)) return interest.unannounced.erase(event.slot);
   if (event.transition == im::Transition::left) {
+    if (is_gathered(event.slot)) put_gathered(context.frame);
     if (interest.unannounced.contains(event.slot)) interest.unannounced.erase(event.slot);
     else if (interest.known.contains(event.slot))
       block_.append(context.frame.bytes(), OutOfScopeMessage{}, object.handle.value);
-  } else if (context.frame.size() < end) {
-    announce(context.slot, event.slot, context.frame.bytes(), block_);
+  } else if (context.frame.size() + gathered_bytes_max() < end) {
+    gather(context, event.slot);
   } else {
     interest.unannounced.insert(event.slot);
     interest.has_unannounced = true;
@@ -105,13 +107,14 @@ void Announcements::write_event(FlushContext& context, const ScopeEvent& event, 
   }
 }
 
-void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes,
-                             ObjectBlockWriter& block) {
+bool Announcements::introduce(std::uint32_t slot, ObjectSlot at, std::vector<std::byte>& bytes) {
   FederateInterest& interest = uses_.distribution.of(slot);
   const Object& object = basis_.objects[at];
   assert(object.is_alive);
-  if (!interest.known.contains(at)) {
-    enqueue(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
+  const bool is_known = interest.known.contains(at);
+  if (!is_known) {
+    if (!object.name.empty())
+      enqueue(bytes, DiscoverObjectMessage{object.handle.value, object.object_class, object.name});
     ++basis_.federates[slot].objects_discovered;
     uses_.requests.discovered(slot, at, interest.attributes_in_scope(at, object.object_class));
     uses_.owners.discovered(slot, at);
@@ -120,13 +123,47 @@ void Announcements::announce(std::uint32_t slot, ObjectSlot at, std::vector<std:
   interest.known.insert(at);
   interest.unannounced.erase(at);
   interest.unannounced_exits.erase(at);
-  block.append(bytes, InScopeMessage{}, object.handle.value);
+  return !is_known && object.name.empty();
+}
+
+void Announcements::gather(FlushContext& context, ObjectSlot object) {
+  if (introduce(context.slot, object, context.frame.bytes())) undiscovered_.insert(object);
+  entering_.insert(object);
+  ++gathered_;
+}
+
+bool Announcements::take(ObjectSlot object) {
+  assert(is_gathered(object));
+  const bool is_discovered = undiscovered_.contains(object);
+  entering_.erase(object);
+  undiscovered_.erase(object);
+  --gathered_;
+  return is_discovered;
+}
+
+void Announcements::write_gathered(FlushContext& context) {
+  const std::size_t before = context.frame.size();
+  put_gathered(context.frame);
+  basis_.counters.scope_bytes_sent += context.frame.size() - before;
+}
+
+void Announcements::put_gathered(GatheredFrame& frame) {
+  if (gathered_ == 0) return;
+  entering_.for_each([&](ObjectSlot each) {
+    const Object& object = basis_.objects[each];
+    if (take(each))
+      enqueue(frame.bytes(), DiscoverObjectMessage{object.handle.value, object.object_class, {}});
+    block_.append(frame.bytes(), InScopeMessage{}, object.handle.value);
+  });
 }
 
 void Announcements::send_state_now(std::uint32_t slot, ObjectSlot object) {
   FederateInterest& interest = uses_.distribution.of(slot);
-  ObjectBlockWriter alone;
-  announce(slot, object, basis_.federates[slot].outbox.head(), alone);
+  const Object& of = basis_.objects[object];
+  std::vector<std::byte>& bytes = basis_.federates[slot].outbox.head();
+  if (introduce(slot, object, bytes))
+    enqueue(bytes, DiscoverObjectMessage{of.handle.value, of.object_class, {}});
+  ObjectBlockWriter().append(bytes, InScopeMessage{}, of.handle.value);
   uses_.owners.send_state(slot, object, uses_.newest.of(object));
   interest.needs_full_state.erase(object);
   interest.holds_former.erase(object);

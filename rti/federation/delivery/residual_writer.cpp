@@ -195,13 +195,21 @@ void ResidualWriter::sent_whole(const UpdateRun& run, FederateInterest& interest
   const AttributeSet kept = model_.kept(run.object_class);
   if (kept.is_empty() || !run.attributes.includes(kept)) return;
   for (std::size_t i = run.first_word; i <= run.last_word; ++i)
-    interest.holds_former.insert_word(i, run.members.word(i) & interest.in_scope.word(i));
+    interest.holds_former.insert_word(
+        i, run.members.word(i) & interest.in_scope.word(i) & ~interest.needs_full_state.word(i));
 }
 
 void ResidualWriter::sent_otherwise(const UpdateRun& run, FederateInterest& interest) const {
   if ((model_.kept(run.object_class) & run.attributes).is_empty()) return;
   for (std::size_t i = run.first_word; i <= run.last_word; ++i)
     interest.holds_former.erase_word(i, run.members.word(i));
+}
+
+void ResidualWriter::passed_by(const UpdateRun& run, FederateInterest& interest) const {
+  if ((model_.kept(run.object_class) & run.attributes).is_empty()) return;
+  for (std::size_t i = run.first_word; i <= run.last_word; ++i)
+    interest.holds_former.erase_word(
+        i, run.members.word(i) & (~interest.in_scope.word(i) | interest.needs_full_state.word(i)));
 }
 
 void ResidualWriter::sent_full_state(ObjectSlot slot, AttributeSet set,

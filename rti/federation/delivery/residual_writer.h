@@ -26,6 +26,9 @@ class ResidualWriter {
   /// Sends run number `index` of the flush, where possible as residuals, together with runs after
   /// it; false if the federate must be sent it whole, and isn't yet.
   bool gather(std::size_t index, FlushContext& context);
+  /// Notes that the federate is not sent the values of objects out of scope, or before their full
+  /// state: what it holds is outdated. Called before full states are written, which may be newer.
+  void passed_by(const UpdateRun& run, FederateInterest& interest) const;
   /// Notes that the federate was sent the run's values in full: by this flush's stream, or in a way
   /// by which it may miss them.
   void sent_whole(const UpdateRun& run, FederateInterest& interest) const;

@@ -163,14 +163,19 @@ void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
 /// Writes the changes of scope and the new values of objects in scope.
 void Sender::write_content(FlushContext& context, Outlet& outlet) {
   FederateInterest& interest = context.interest;
+  for (const UpdateRun& run : context.runs) uses_.residuals.passed_by(run, interest);
   const std::size_t entry_end = context.frame.size() + entry_room(context, outlet);
   uses_.announcements.write(context, entry_end);
-  if (holds_back(context, outlet)) return hold_back(context);
+  if (holds_back(context, outlet)) {
+    uses_.announcements.write_gathered(context);
+    return hold_back(context);
+  }
   const bool has_turns = interest.turns && interest.host_served == FederateInterest::no_class;
   if (has_turns) uses_.turns.apply_turns(context);
   // Stamps ascend within a frame, and that of full states is the newest.
   if (context.has_turns) gather_runs(context);
-  write_full_states(context, entry_end);
+  uses_.entries.write(context, entry_end);
+  uses_.announcements.write_gathered(context);
   if (has_turns) uses_.turns.catch_up(context);
   if (context.federate.channel && !context.federate.channel->due.empty()) write_due_states(context);
   if (!context.has_turns) gather_runs(context);
@@ -200,51 +205,6 @@ std::size_t Sender::entry_room(const FlushContext& context, const Outlet& outlet
   return basis_.settings.entry_bytes_per_flush_max -
          std::min(basis_.settings.entry_bytes_per_flush_max,
                   outlet.waiting_bytes(context.federate.connection));
-}
-
-/// Fills the frame up to `end` bytes. A state has the newest stamp of its owner, not that of its
-/// own latest update: it holds until then.
-void Sender::write_full_states(FlushContext& context, std::size_t end) {
-  FederateInterest& interest = context.interest;
-  GatheredFrame& frame = context.frame;
-  if (!interest.needs_any_full_state) return;
-  bool is_whole = !interest.has_unannounced;
-  const std::size_t before = frame.size();
-  std::optional<UpdatesBlock> block;
-  interest.sent_to = interest.needs_full_state.visit_from(interest.sent_to, [&](ObjectSlot due) {
-    if (interest.unannounced.contains(due) || std::ranges::binary_search(interest.sent_now, due))
-      return true;
-    if (frame.size() >= end) {
-      is_whole = false;
-      return false;
-    }
-    if (interest.turns && interest.turns->waiting.contains(due)) {
-      is_whole = false;
-      return true;
-    }
-    context.full_state_sent.push_back(due);
-    const Object& object = basis_.objects[due];
-    if (!object.is_alive || object.object_class == interest.host_served) return true;
-    AttributeSet set = interest.attributes_in_scope(due, object.object_class) & object.valued;
-    uses_.residuals.sent_full_state(due, set, interest);
-    const AttributeSet statics = basis_.objects.settled_static(due);
-    if (interest.holds_static.contains(due)) set = set.without(statics);
-    else if (!statics.is_empty() && set.includes(statics)) interest.holds_static.insert(due);
-    if (set.is_empty()) return true;
-    const Stamp stamp = uses_.newest.of(due);
-    if (!block || !frame.is_stamped(stamp)) {
-      block.reset();
-      frame.write_stamp(stamp);
-      block.emplace(frame.bytes());
-    }
-    block->append(object.object_class, set, object.handle,
-                  [&] { basis_.objects.append(due, set, frame.bytes()); });
-    ++basis_.counters.updates_sent;
-    return true;
-  });
-  block.reset();
-  context.is_all_sent = is_whole;
-  basis_.counters.entry_bytes_sent += frame.size() - before;
 }
 
 bool Sender::holds_back(const FlushContext& context, const Outlet& outlet) {

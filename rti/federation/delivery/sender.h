@@ -11,6 +11,7 @@
 #include "rti/federation/delivery/announcements.h"
 #include "rti/federation/delivery/best_effort_receiver.h"
 #include "rti/federation/delivery/best_effort_sender.h"
+#include "rti/federation/delivery/entry_writer.h"
 #include "rti/federation/delivery/flush_context.h"
 #include "rti/federation/delivery/periodic_writer.h"
 #include "rti/federation/delivery/residual_writer.h"
@@ -29,6 +30,7 @@ class Sender final {
     Buffering& buffering;
     const NewestStamps& newest;
     Announcements& announcements;
+    EntryWriter& entries;
     PeriodicWriter& periodic;
     TurnWriter& turns;
     ResidualWriter& residuals;
@@ -54,7 +56,6 @@ class Sender final {
   std::size_t entry_room(const FlushContext& context, const Outlet& outlet) const;
   bool holds_back(const FlushContext& context, const Outlet& outlet);
   void hold_back(FlushContext& context);
-  void write_full_states(FlushContext& context, std::size_t end);
   void write_due_states(FlushContext& context);
   void gather_runs(FlushContext& context);
   void gather_whole(std::size_t index, FlushContext& context);

@@ -50,21 +50,20 @@ const std::vector<Guesser>& from_federates() {
 }
 
 const std::vector<Guesser>& from_the_rti() {
-  static const std::vector<Guesser> all =
-      guessers_of<JoinedMessage, RefusedMessage, AnnounceSynchronizationPointMessage,
-                  FederationSynchronizedMessage, FederateJoinedMessage, FederateResignedMessage,
-                  DiscoverObjectMessage, RemoveObjectMessage, InScopeMessage, OutOfScopeMessage,
-                  TimeRegulationEnabledMessage, TimeConstrainedEnabledMessage,
-                  TimeAdvanceGrantMessage, TimedDeliveryMessage, RequestRetractionMessage,
-                  TimeBoundsMessage, FomDigestMessage, ProvideUpdateMessage,
-                  SynchronizationPointRegisteredMessage, FederationExecutionCreatedMessage,
-                  FederationExecutionDestroyedMessage, FederationExecutionMessage,
-                  FederationReportMessage, FederateReportMessage, ReportEndMessage,
-                  BeginKeyframeMessage, DeltasMessage, ResidualsMessage, OwnershipNoticeMessage,
-                  InformOwnershipMessage, ChallengeMessage, AdmittedMessage, ExpelledMessage,
-                  FurtherBlockMessage, InstanceNamesAnswerMessage, ClassRelevanceMessage,
-                  ObjectRelevanceMessage, TransportationMessage, StampMessage, StampStepMessage,
-                  UpdatesMessage, InteractionMessage, HostMessage>();
+  static const std::vector<Guesser> all = guessers_of<
+      JoinedMessage, RefusedMessage, AnnounceSynchronizationPointMessage,
+      FederationSynchronizedMessage, FederateJoinedMessage, FederateResignedMessage,
+      DiscoverObjectMessage, RemoveObjectMessage, InScopeMessage, OutOfScopeMessage,
+      TimeRegulationEnabledMessage, TimeConstrainedEnabledMessage, TimeAdvanceGrantMessage,
+      TimedDeliveryMessage, RequestRetractionMessage, TimeBoundsMessage, FomDigestMessage,
+      ProvideUpdateMessage, SynchronizationPointRegisteredMessage,
+      FederationExecutionCreatedMessage, FederationExecutionDestroyedMessage,
+      FederationExecutionMessage, FederationReportMessage, FederateReportMessage, ReportEndMessage,
+      BeginKeyframeMessage, DeltasMessage, ResidualsMessage, OwnershipNoticeMessage,
+      InformOwnershipMessage, ChallengeMessage, AdmittedMessage, ExpelledMessage,
+      FurtherBlockMessage, InstanceNamesAnswerMessage, ClassRelevanceMessage,
+      ObjectRelevanceMessage, TransportationMessage, StampMessage, StampStepMessage, UpdatesMessage,
+      InteractionMessage, HostMessage, EntriesMessage, EntriesAgainMessage>();
   return all;
 }
 

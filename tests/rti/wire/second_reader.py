@@ -286,15 +286,43 @@ class Reader:
             lines.append("%s %d %s %s %s %s" % (verb, handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
         return lines
 
-    def block(self):
+    def entries(self, is_again):
+        """Objects that come into scope with their values."""
+        assert self.stamp is not None, "a block of entries before the first stamp of its frame"
+        if not is_again:
+            self.connection.entry_header = self.varint(), self.attribute_bits(), self.attribute_bits()
+        number, bits, repeated = self.connection.entry_header
+        assert bits != 0 and repeated & ~bits == 0
+        last = self.connection.entry_values.setdefault(number, {})
+        lines, handle, is_last = [], 1 << 18, False
+        while not is_last:
+            entry = self.varint()
+            is_last, form = entry & 1, entry >> 1 & 3
+            assert form < 3
+            handle += parts.signed(entry >> 3)
+            former, values = self.connection.former.setdefault(handle, {}), b""
+            for k, (_, data_type) in enumerate(self.model.objects[number][1]):
+                if not bits >> k & 1:
+                    continue
+                if form != 2:
+                    if not repeated >> k & 1:
+                        last[k] = self.value(data_type)
+                    former[data_type] = last[k]
+                values += former[data_type]
+            if form == 1:
+                lines.append("discover %d %s -" % (handle, self.object_class(number)))
+            lines.append("in_scope %d" % handle)
+            lines.append("reflect %d %s %s %s %s" % (handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
+        return lines
+
+    def block(self, before_first=0):
         """The handles of a block's objects, as the steps between them lead."""
-        handle = 0
+        handle = before_first
         while True:
             step = self.varint()
             if step == 0:
                 return
-            step -= 1
-            handle += -(step + 1) // 2 if step & 1 else step // 2
+            handle += parts.signed(step - 1)
             yield handle
 
     def attribute_bits(self):
@@ -486,8 +514,8 @@ DOWN = {
     69: lambda r: ["federate_resigned %d %d %s %s" % (r.u32(), r.u8(), r.text(), r.text())],
     70: lambda r: ["discover " + r.object_message()],
     71: lambda r: ["remove %d" % r.varint()],
-    72: lambda r: ["in_scope %d" % each for each in r.block()],
-    73: lambda r: ["out_of_scope %d" % each for each in r.block()],
+    72: lambda r: ["in_scope %d" % each for each in r.block(1 << 18)],
+    73: lambda r: ["out_of_scope %d" % each for each in r.block(1 << 18)],
     74: lambda r: ["registered %s %d" % (r.text(), r.u8())],
     75: lambda r: ["execution_created %s %d" % (r.text(), r.u8())],
     76: lambda r: ["execution_destroyed %s %d" % (r.text(), r.u8())],
@@ -510,6 +538,8 @@ DOWN = {
     111: lambda r: parts.deltas(r, Bits),
     114: lambda r: parts.residuals(r, Bits),
     115: Reader.step_stamp,
+    116: lambda r: r.entries(False),
+    117: lambda r: r.entries(True),
     118: lambda r: r.connection.admission.challenge(r),
     119: lambda r: r.connection.admission.proof(r, 2),
     112: Reader.digest,
@@ -525,6 +555,8 @@ class Connection:
         self.keyframes, self.admission, self.way = parts.Keyframes(), parts.Admission(secret), parts.Way()
         self.frames = {"u": 0, "d": 0}
         self.last_stamp = [0, 0, 0, 0]  # time, tag, and a step of each
+        self.entry_header = None  # class, attributes and repeated ones of the last block of entries
+        self.entry_values = {}  # by class: the values that entries brought last
         self.former = {}  # by object: the value of each data type that came last by the stream
 
 

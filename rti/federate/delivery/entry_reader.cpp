@@ -1,0 +1,87 @@
+// Record by record: discovery, scope, values.
+#include "rti/federate/delivery/entry_reader.h"
+
+#include "rti/fom/coded_values.h"
+
+namespace rink::rti {
+
+bool EntryReader::handle(Reader& reader, const ReadContext& context, bool is_postponing) {
+  EntriesMessage message;
+  if (!exchange(reader, message) || message.object_class >= basis_.fom.object_classes().size())
+    return false;
+  const AttributeSet attributes{message.attributes}, repeated{message.repeated};
+  if (attributes.is_empty() || !attributes.includes(repeated) ||
+      !basis_.fom.attributes(ObjectClassHandle{message.object_class}).includes(attributes))
+    return false;
+  header_ = message;
+  return handle_again(reader, context, is_postponing);
+}
+
+bool EntryReader::handle_again(Reader& reader, const ReadContext& context, bool is_postponing) {
+  if (!header_ || !context.stamp || context.timed != nullptr) return false;
+  const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{header_->object_class});
+  const Block block{*header_, object_class, AttributeSet{header_->attributes},
+                    AttributeSet{header_->repeated}};
+  return read_records(block, reader, context, is_postponing) || !basis_.phase.is_joined();
+}
+
+bool EntryReader::read_records(const Block& block, Reader& reader, const ReadContext& context,
+                               bool is_postponing) {
+  const std::uint16_t object_class = block.message.object_class;
+  std::uint32_t previous = first_in_scope_block;
+  EntryRecord record;
+  do {
+    if (!read_entry(reader, previous, record)) return false;
+    const ObjectHandle object{record.handle};
+    if (record.form != EntryForm::held && !read_values(block, reader)) return false;
+    if (record.form == EntryForm::discovered && !uses_.objects.discover(object, object_class, {}))
+      return false;
+    if (!basis_.phase.is_joined()) return false;
+    const KnownObject* known = uses_.book.find(object);
+    if (known == nullptr && uses_.book.is_gone(object)) continue;
+    if (known == nullptr || known->object_class != object_class) return false;
+    uses_.objects.change_scope(object, object_class, true);
+    if (!basis_.phase.is_joined()) return false;
+    if (record.form == EntryForm::held) {
+      if (!reflect_held(block, object, context, is_postponing)) return false;
+    } else if (is_postponing) {
+      uses_.postponed.keep_values(*context.stamp, block.message, object, values_);
+    } else if (!uses_.updates.reflect_entry(block.message, object, values_, context)) {
+      return false;
+    }
+  } while (!record.is_last);
+  return true;
+}
+
+bool EntryReader::read_values(const Block& block, Reader& reader) {
+  const std::uint16_t object_class = block.message.object_class;
+  values_.clear();
+  for (const AttributeHandle each : block.attributes) {
+    Bytes value;
+    if (block.repeated.contains(each)) {
+      if (!last_.has(object_class, each)) return false;
+      value = last_.last(object_class, each);
+    } else {
+      const auto size = coded_size(block.object_class, {each}, reader.rest());
+      if (!size || !reader.rest(value, *size)) return false;
+      last_.note(object_class, each, value);
+    }
+    if (values_.size() + value.size() > values_max) return false;
+    values_.insert(values_.end(), value.begin(), value.end());
+  }
+  return true;
+}
+
+bool EntryReader::reflect_held(const Block& block, ObjectHandle object, const ReadContext& context,
+                               bool is_postponing) {
+  const std::uint16_t object_class = block.message.object_class;
+  values_.clear();
+  if (!uses_.residuals.append_held(object, object_class, block.attributes, values_)) return false;
+  if (!is_postponing) return uses_.updates.reflect_held(block.message, object, values_, context);
+  std::vector<std::byte> coded;
+  encode(block.object_class, block.attributes, values_, context.stamp->time, coded);
+  uses_.postponed.keep_values(*context.stamp, block.message, object, coded);
+  return true;
+}
+
+}  // namespace rink::rti

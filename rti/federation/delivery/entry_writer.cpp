@@ -1,0 +1,109 @@
+// Object by object, in the order of their slots.
+#include "rti/federation/delivery/entry_writer.h"
+
+#include <algorithm>
+
+namespace rink::rti {
+
+void EntryWriter::write(FlushContext& context, std::size_t end) {
+  FederateInterest& interest = context.interest;
+  GatheredFrame& frame = context.frame;
+  if (!interest.needs_any_full_state) return;
+  bool is_whole = !interest.has_unannounced;
+  const std::size_t before = frame.size();
+  {
+    Blocks blocks{std::nullopt, {frame.bytes(), context.federate.entry_header}};
+    interest.sent_to = interest.needs_full_state.visit_from(interest.sent_to, [&](ObjectSlot due) {
+      if (interest.unannounced.contains(due) || std::ranges::binary_search(interest.sent_now, due))
+        return true;
+      if (frame.size() + uses_.announcements.gathered_bytes_max() >= end) {
+        is_whole = false;
+        return false;
+      }
+      if (interest.turns && interest.turns->waiting.contains(due)) {
+        is_whole = false;
+        return true;
+      }
+      context.full_state_sent.push_back(due);
+      const Due state = state_due(context.interest, due);
+      if (state.attributes.is_empty()) return true;
+      const Stamp stamp = uses_.newest.of(due);
+      if (!frame.is_stamped(stamp)) {
+        blocks.close();
+        frame.write_stamp(stamp);
+      }
+      if (uses_.announcements.is_gathered(due)) write_entry(context, state, blocks);
+      else write_update(context, state, blocks);
+      ++basis_.counters.updates_sent;
+      return true;
+    });
+  }
+  context.is_all_sent = is_whole;
+  basis_.counters.entry_bytes_sent += frame.size() - before;
+}
+
+/// Notes that the federate is sent it. Static values that it has are not due again.
+EntryWriter::Due EntryWriter::state_due(FederateInterest& interest, ObjectSlot slot) {
+  const Object& object = basis_.objects[slot];
+  if (!object.is_alive || object.object_class == interest.host_served) return {};
+  const AttributeSet in_scope =
+      interest.attributes_in_scope(slot, object.object_class) & object.valued;
+  Due due{slot, in_scope, in_scope, false};
+  due.is_held = interest.holds_former.contains(slot) && uses_.states.holds(object, slot, in_scope);
+  uses_.residuals.sent_full_state(slot, in_scope, interest);
+  const AttributeSet statics = basis_.objects.settled_static(slot);
+  if (interest.holds_static.contains(slot)) due.attributes = in_scope.without(statics);
+  else if (!statics.is_empty() && in_scope.includes(statics)) interest.holds_static.insert(slot);
+  return due;
+}
+
+void EntryWriter::write_update(FlushContext& context, const Due& due, Blocks& blocks) {
+  const Object& object = basis_.objects[due.slot];
+  std::vector<std::byte>& bytes = context.frame.bytes();
+  blocks.entries.close();
+  if (!blocks.updates) blocks.updates.emplace(bytes);
+  blocks.updates->append(object.object_class, due.attributes, object.handle,
+                         [&] { basis_.objects.append(due.slot, due.attributes, bytes); });
+}
+
+/// Static values that the federate has and the last entry had are named again: blocks of entries of
+/// one class then have one header.
+void EntryWriter::write_entry(FlushContext& context, const Due& due, Blocks& blocks) {
+  const Object& object = basis_.objects[due.slot];
+  std::vector<std::byte>& bytes = context.frame.bytes();
+  EntryValues& last = context.federate.entry_values;
+  blocks.updates.reset();
+  const bool is_discovered = uses_.announcements.take(due.slot);
+  if (!is_discovered && due.is_held) {
+    const EntryHeader& header = context.federate.entry_header;
+    const bool is_like_last = header && header->object_class == object.object_class &&
+                              header->attributes == due.in_scope.bits;
+    blocks.entries.append(
+        is_like_last ? *header : EntriesMessage{object.object_class, due.in_scope.bits, 0},
+        object.handle.value, EntryForm::held, [] {});
+    ++basis_.counters.entries_held;
+    return;
+  }
+  AttributeSet again = repeated(last, due.slot, due.in_scope), set = due.in_scope;
+  if (!again.includes(set.without(due.attributes))) set = due.attributes, again = again & set;
+  blocks.entries.append({object.object_class, set.bits, again.bits}, object.handle.value,
+                        is_discovered ? EntryForm::discovered : EntryForm::known, [&] {
+                          for (const AttributeHandle each : set.without(again)) {
+                            const std::size_t before = bytes.size();
+                            basis_.objects.append(due.slot, {each}, bytes);
+                            last.note(object.object_class, each, Bytes(bytes).subspan(before));
+                          }
+                        });
+}
+
+AttributeSet EntryWriter::repeated(const EntryValues& last, ObjectSlot object, AttributeSet set) {
+  AttributeSet again;
+  for (const AttributeHandle each : set) {
+    value_.clear();
+    basis_.objects.append(object, {each}, value_);
+    if (last.repeats(basis_.objects[object].object_class, each, value_)) again.insert(each);
+  }
+  return again;
+}
+
+}  // namespace rink::rti

@@ -1,0 +1,179 @@
+// Objects that come into scope with their values: one record each, of what the federate lacks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rti/wire/entry_block.h"
+#include "tests/rti/bare.h"
+
+namespace rink::rti::testing {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// Writes down what it is told, in order.
+struct Listener final : FederateAmbassador {
+  std::vector<std::string> heard;
+  Ambassador ambassador{harbour(), *this};
+  Listener() {
+    ambassador.join("rink", "listener", "tester");
+    const auto joined = frame_of(JoinedMessage{4, 2});
+    EXPECT_TRUE(ambassador.receive(joined));
+  }
+  void discover_object_instance(ObjectHandle object, ObjectClassHandle, std::string_view) override {
+    heard.push_back("discover " + std::to_string(object.value - object_block));
+  }
+  void attributes_in_scope(ObjectHandle object) override {
+    heard.push_back("in scope " + std::to_string(object.value - object_block));
+  }
+  void reflect_attribute_values(ObjectHandle object, AttributeSet set, Bytes values,
+                                const Stamp&) override {
+    std::string text = "reflect " + std::to_string(object.value - object_block);
+    for (const AttributeHandle each : set) {
+      const Bytes value = harbour().value(vessel, set, each, values);
+      float first = 0.0f;
+      std::memcpy(&first, value.data(), sizeof first);
+      text += " " + std::to_string(static_cast<int>(first));
+    }
+    heard.push_back(text);
+  }
+};
+
+constexpr std::uint32_t first = object_block;
+const AttributeSet both{position, speed};
+
+void append(std::vector<std::byte>& bytes, const std::vector<std::byte>& more) {
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+/// A frame with a stamp and the blocks that `write` appends to its payload.
+template <class Write>
+std::vector<std::byte> entries(Write write) {
+  std::vector<std::byte> payload;
+  StampMessage stamp{{1.0, 0}};
+  rti::write(payload, stamp);
+  write(payload);
+  FrameWriter frame(frame_max_to_federate);
+  append(frame.begin_message(payload.size()), payload);
+  frame.appended();
+  return {frame.bytes().begin(), frame.bytes().end()};
+}
+
+EntriesMessage header(AttributeSet attributes, AttributeSet repeated = {}) {
+  return {static_cast<std::uint16_t>(vessel.value), attributes.bits, repeated.bits};
+}
+
+TEST(Entries, AreDiscoveredComeIntoScopeAndAreReflectedInThisOrder) {
+  Listener listener;
+  const auto bytes = entries([](std::vector<std::byte>& payload) {
+    EntryHeader last;
+    EntriesBlock block(payload, last);
+    block.append(header(both), first + 7, EntryForm::discovered,
+                 [&] { append(payload, values_of(3.0f, 4.0f, 5.0f)); });
+    block.append(header(both), first + 5, EntryForm::discovered,
+                 [&] { append(payload, values_of(6.0f, 7.0f, 8.0f)); });
+  });
+  ASSERT_TRUE(listener.ambassador.receive(bytes));
+  EXPECT_THAT(listener.heard, ElementsAre("discover 7", "in scope 7", "reflect 7 3 5", "discover 5",
+                                          "in scope 5", "reflect 5 6 8"));
+}
+
+TEST(Entries, RepeatTheValueThatAnEntryOfTheClassBroughtLast) {
+  Listener listener;
+  const auto bytes = entries([](std::vector<std::byte>& payload) {
+    EntryHeader last;
+    EntriesBlock block(payload, last);
+    block.append(header(both), first + 1, EntryForm::discovered,
+                 [&] { append(payload, values_of(1.0f, 2.0f, 9.0f)); });
+    block.append(header(both, {speed}), first + 2, EntryForm::discovered,
+                 [&] { append(payload, values_of(3.0f, 4.0f)); });
+    block.append(header(both, {speed}), first + 3, EntryForm::discovered,
+                 [&] { append(payload, values_of(5.0f, 6.0f)); });
+    block.append(header(both, both), first + 4, EntryForm::discovered, [] {});
+  });
+  ASSERT_TRUE(listener.ambassador.receive(bytes));
+  EXPECT_THAT(listener.heard,
+              ElementsAre("discover 1", "in scope 1", "reflect 1 1 9", "discover 2", "in scope 2",
+                          "reflect 2 3 9", "discover 3", "in scope 3", "reflect 3 5 9",
+                          "discover 4", "in scope 4", "reflect 4 5 9"));
+}
+
+TEST(Entries, WithTheHeaderOfTheBlockBeforeComeInALaterFrame) {
+  Listener listener;
+  EntryHeader last;
+  std::vector<std::size_t> sizes;
+  for (std::uint32_t k = 1; k < 4; ++k) {
+    const auto bytes = entries([&](std::vector<std::byte>& payload) {
+      EntriesBlock(payload, last).append(header(both), first + k, EntryForm::discovered, [&] {
+        append(payload, values_of(1.0f, 2.0f, static_cast<float>(k)));
+      });
+    });
+    ASSERT_TRUE(listener.ambassador.receive(bytes));
+    sizes.push_back(bytes.size());
+  }
+  EXPECT_EQ(listener.heard.back(), "reflect 3 1 3");
+  EXPECT_THAT(sizes, ElementsAre(sizes[0], sizes[0] - 3, sizes[0] - 3));
+}
+
+TEST(Entries, ThatCannotBeEndTheConnection) {
+  const auto value = values_of(1.0f, 2.0f, 3.0f);
+  const auto one = [&](const EntriesMessage& of, EntryForm form, bool has_value) {
+    return entries([&](std::vector<std::byte>& payload) {
+      EntryHeader last;
+      EntriesBlock(payload, last).append(of, first + 1, form, [&] {
+        if (has_value) append(payload, value);
+      });
+    });
+  };
+  EntriesMessage no_class = header(both);
+  no_class.object_class = 4000;
+  const auto again = entries([](std::vector<std::byte>& payload) {
+    EntriesAgainMessage message;
+    rti::write(payload, message);
+    write_entry(payload, first, {first + 1, EntryForm::discovered});
+  });
+  const auto form = entries([&](std::vector<std::byte>& payload) {
+    EntriesMessage message = header(both);
+    rti::write(payload, message);
+    write_entry(payload, first, {first + 1, static_cast<EntryForm>(3)});
+    append(payload, value);
+  });
+  const auto unended = entries([&](std::vector<std::byte>& payload) {
+    EntriesMessage message = header(both);
+    rti::write(payload, message);
+    write_entry(payload, first, {first + 1, EntryForm::discovered, false});
+    append(payload, value);
+  });
+  const std::pair<const char*, std::vector<std::byte>> all[] = {
+      {"of no class", one(no_class, EntryForm::discovered, true)},
+      {"without attributes", one(header({}), EntryForm::discovered, true)},
+      {"of attributes that the class has not",
+       one(header(AttributeSet(AttributeBits{1} << 20)), EntryForm::discovered, true)},
+      {"that repeat other attributes", one(header({speed}, both), EntryForm::discovered, true)},
+      {"that repeat what none brought", one(header(both, both), EntryForm::discovered, false)},
+      {"of an object that nobody discovered", one(header(both), EntryForm::known, true)},
+      {"held by nobody", one(header(both), EntryForm::held, false)},
+      {"cut short", one(header(both), EntryForm::discovered, false)},
+      {"with the header of no block", again},
+      {"of a form that there is not", form},
+      {"without an end", unended},
+  };
+  for (const auto& [what, bytes] : all) {
+    Listener listener;
+    EXPECT_FALSE(listener.ambassador.receive(bytes)) << what;
+  }
+}
+
+TEST(Entries, TwiceDiscoveredEndTheConnection) {
+  Listener listener;
+  const auto bytes = entries([](std::vector<std::byte>& payload) {
+    EntryHeader last;
+    EntriesBlock block(payload, last);
+    for (int i = 0; i < 2; ++i)
+      block.append(header(both), first + 1, EntryForm::discovered,
+                   [&] { append(payload, values_of(1.0f, 2.0f, 3.0f)); });
+  });
+  EXPECT_FALSE(listener.ambassador.receive(bytes));
+}
+
+}  // namespace
+}  // namespace rink::rti::testing
