@@ -138,6 +138,12 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .option("--camera", options.camera,
               "viewpoint; C changes it, V gives each of two players their own again")
       .check(one_of({"left", "right", "side", "above"}));
+  flags
+      .option("--control", options.control,
+              "what moves the bat of the only player, or of the left of two: keys; pointer, mouse "
+              "or touch, which the bat follows; gamepad, its left stick. Keys go on beside it "
+              "(default: the setting control)")
+      .check(one_of({"keys", "pointer", "gamepad"}));
   flags.option("--size", options.size, "size of the window")
       .value_name("WIDTHxHEIGHT")
       .shows_default();
@@ -154,7 +160,8 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .option(
           "--script", options.script,
           "press keys and take pictures by the script FILE: lines TIME down|up|tap KEY, TIME text "
-          "WORDS, TIME picture FILE.png, TIME end")
+          "WORDS, TIME pointer X Y, TIME stick X Y, TIME gamepad on|off, TIME picture FILE.png, "
+          "TIME end")
       .value_name("FILE");
   const auto screenshot = flags
                               .option("--screenshot", options.screenshot,

@@ -18,7 +18,7 @@ struct PlayOptions {
   std::string bot, host, join, watch, replay, records;
   std::string peer, peer_listen;
   game::PlayingPeerSettings sharing;
-  std::string camera;
+  std::string camera, control;
   std::string size = "1280x720";
   bool is_full_screen = false, is_muted = false, shows_figures = false;
   std::string settings_file, key_file;

@@ -43,6 +43,7 @@ class Process {
     is_misread_ = !read.errors.empty();
     if (options.is_muted) settings_.is_muted = true;
     if (options.is_full_screen) settings_.is_full_screen = true;
+    if (const auto control = view::control_from_name(options.control)) settings_.control = *control;
     for (const std::string& problem : read.errors)
       errors_ += (errors_.empty() ? "" : "\n") + problem;
     if (!options.script.empty()) script_ = view::read_script(options.script);
@@ -232,7 +233,8 @@ int main(int count, char** words) {
   view::add_options(flags, options);
   flags.footer(
       "Example: rink play --bot club\n"
-      "Keys: W A S D and the arrows move the bats, Esc pauses, C changes the camera, V splits the "
+      "Keys: W A S D and the arrows move the bats (or --control pointer, gamepad), Esc pauses, C "
+      "changes the camera, V splits the "
       "screen for two, + and - zoom and F follows from above, M mutes,\n"
       "F3 shows figures, F11 fills the screen.\n"
       "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "

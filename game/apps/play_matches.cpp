@@ -61,6 +61,10 @@ class MatchWithin : public game::MatchSource {
   void press(std::uint32_t hand, game::Key key, bool is_down) override {
     match_.press(hand, key, is_down);
   }
+  void reach(std::uint32_t hand, const std::optional<game::Vector2>& place) override {
+    match_.reach(hand, place);
+  }
+  std::string why_keys_alone() const override { return match_.why_keys_alone(); }
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
 

@@ -108,7 +108,13 @@ void add_options(Flags& flags, ServeOptions& options) {
   flags
       .option("--key-limit", options.key_limit_per_s,
               "key changes per second that a player may send; others are counted and reported, "
-              "but have no effect; 0: any")
+              "but have no effect; 0: any; of a match, by default 120")
+      .check(zero_or_number_from(1.0, 1e9))
+      .shows_default();
+  flags
+      .option("--push-limit", options.push_limit_per_s,
+              "in a match, pushes per second that a player may send by a pointer or a gamepad; "
+              "others as above; 0: any")
       .check(zero_or_number_from(1.0, 1e9))
       .shows_default();
   flags
@@ -263,6 +269,7 @@ void host_by_default(const Flags& flags, ServeOptions& options) {
   if (options.hosted.empty()) return;
   options.scene = options.hosted;
   if (!flags.is_given("--policy")) options.policy = "on-event";
+  if (!flags.is_given("--key-limit")) options.key_limit_per_s = match_key_limit_default;
   if (!flags.is_given("--rate")) options.rate_hz = 60.0;
   if (!flags.is_given("--record")) options.record = "matches";
 }

@@ -257,7 +257,9 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
          report[report::dropped_connections.key].get<std::uint64_t>(), " connections dropped");
   if (report[report::keys_over_limit.key] != 0)
     warn(report[report::keys_over_limit.key].get<std::uint64_t>(),
-         " key changes above --key-limit were not felt");
+         options.hosted.empty()
+             ? " key changes above --key-limit were not felt"
+             : " key changes or pushes above --key-limit or --push-limit were not felt");
   process.end();
   add_totals(report, process.totals());
   if (!options.report.empty()) write_file(options.report, report.dump(2));

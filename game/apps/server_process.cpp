@@ -50,6 +50,7 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                 .replay = played.replay,
                 .hosting = hosting_of(options),
                 .key_limit_per_s = options.key_limit_per_s,
+                .push_limit_per_s = options.push_limit_per_s,
                 .events_per_s = options.events_per_s,
                 .always_relevant = relevant_kinds_of(played.scene, options.always),
                 .state = played.state,
@@ -296,8 +297,11 @@ void ServerProcess::try_records() {
 void ServerProcess::report_flood() {
   const KeyCounters& counters = server_.keys().counters();
   if (counters.over_limit == 0 || std::exchange(is_flood_reported_, true)) return;
+  const bool is_push = counters.is_push_over_limit;
   warn("the player of ", bat_name(counters.player_over_limit), " sends more than ",
-       options_.key_limit_per_s, " key changes a second (--key-limit): what is more is not felt");
+       is_push ? options_.push_limit_per_s : options_.key_limit_per_s,
+       is_push ? " pushes a second (--push-limit)" : " key changes a second (--key-limit)",
+       ": what is more is not felt");
 }
 
 /// Players see on their screens if there is no record.

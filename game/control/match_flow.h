@@ -36,6 +36,7 @@ struct MatchState {
   std::optional<Team> winner;           ///< once it is over
   bool is_unrecorded = false;  ///< the last match could not be recorded; set by the host, no rule
                                ///< depends on it
+  bool takes_keys_alone = false;  ///< no pushes; set by the host, no rule depends on it
   friend bool operator==(const MatchState&, const MatchState&) = default;
 };
 

@@ -149,6 +149,12 @@ void Playing::press(std::uint32_t player, Key key, bool is_down) {
   submit({game_.now(), player, is_down ? InputKind::key_down : InputKind::key_up, key});
 }
 
+void Playing::push(std::uint32_t player, const Push& push) {
+  assert(
+      std::ranges::none_of(seats_, [player](const Seat& seat) { return seat.number == player; }));
+  submit({.time = game_.now(), .player = player, .kind = InputKind::push, .push = push});
+}
+
 void Playing::submit(const InputEvent& event) {
   const InputEvent queued = game_.submit(event);
   assert(queued.time >= event.time && queued.player == event.player && queued.key == event.key);

@@ -34,12 +34,14 @@ class Playing {
   /// A key of `player`, whose kind is `hand` (asserted), at now(), or right after it if others have
   /// pressed theirs then.
   void press(std::uint32_t player, Key key, bool is_down);
+  /// As press: the bat is pushed so from now on.
+  void push(std::uint32_t player, const Push& push);
 
   const Game& game() const { return game_; }
   /// As Game's: makes `events` list all events of bodies in the last `advance`.
   void record_events(bool is_wanted);
   std::span<const physics::Event> events() const { return happened_; }
-  /// All keys pressed up to now(), ordered by time, then player.
+  /// All keys and pushes up to now(), ordered by time, then player.
   std::vector<InputEvent> keys() const;
 
   /// Asserts that seats are in order of phase and keys in order of time, each of a player.

@@ -48,6 +48,18 @@ std::uint64_t replay(const KeyLog& log, const Scene& scene) {
   return game.hash();
 }
 
+namespace {
+
+/// Whether inputs of the game's present instant are still to be played: what is submitted there
+/// would come at it, not after it.
+bool is_instant_open(const Game& game) {
+  if (game.simulator().exact_world() == nullptr || game.player_count() == 0) return false;
+  return game.copy().submit({.time = game.now()}).time == game.now();
+}
+
+}  // namespace
+
+/// Inputs of the last instant that the game has not come to yet would be played by a replay.
 KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
               std::vector<InputEvent> events) {
   KeyLog log = key_log_for(scene);
@@ -56,6 +68,9 @@ KeyLog log_of(const Game& game, const Scene& scene, std::string scene_text,
   if (!game.is_cut_short()) log.hash = game.hash();  // a replay plays instants to their end
   log.events = std::move(events);
   std::erase_if(log.events, [&](const InputEvent& event) { return event.time > game.now(); });
+  const auto is_last = [&](const InputEvent& event) { return event.time == game.now(); };
+  if (std::ranges::any_of(log.events, is_last) && is_instant_open(game))
+    std::erase_if(log.events, is_last);
   std::stable_sort(log.events.begin(), log.events.end(),
                    [](const InputEvent& a, const InputEvent& b) { return a.time < b.time; });
   return log;

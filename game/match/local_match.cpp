@@ -31,6 +31,7 @@ void LocalMatch::begin(double now_s) {
   match_number_ = flow_.state().number;
   assert(match_number_ > 0 && flow_.is_here(0) && flow_.is_here(1));
   played_s_ = 0.0;
+  for (HandSpring& spring : springs_) spring.forget();
   constexpr double forever = 0.0;  // no bot here has its keys drawn beforehand
   playing_ = std::make_unique<Playing>(scene_, settings_.players,
                                        settings_.seed + match_number_ - 1, forever);
@@ -48,6 +49,7 @@ void LocalMatch::advance(double now_s) {
   assert(playing_ != nullptr && playing_->game().player_count() == 2);
   for (const PressedKey& pressed : std::exchange(pressed_, {}))
     playing_->press(hands_[pressed.hand], pressed.key, pressed.is_down);
+  if (flow_.runs()) push_bats();
   show();
 }
 
@@ -74,6 +76,23 @@ void LocalMatch::play(double duration_s) {
 void LocalMatch::press(std::uint32_t hand, Key key, bool is_down) {
   assert(hand < hands_.size());
   pressed_.push_back({hand, key, is_down});
+}
+
+void LocalMatch::reach(std::uint32_t hand, const std::optional<Vector2>& place) {
+  assert(hand < hands_.size());
+  springs_[hand].reach(place);
+}
+
+void LocalMatch::push_bats() {
+  const Game& game = playing_->game();
+  for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
+    const std::uint32_t player = hands_[hand];
+    const EntityId bat = *game.bat(player);
+    const std::optional<Push> push = springs_[hand].next(
+        {game.position(bat), game.velocity(bat), key_thrust(game, player), scene_.world.bat_drag},
+        now_s_);
+    if (push) playing_->push(player, *push);
+  }
 }
 
 void LocalMatch::pause(bool is_wanted) { flow_.pause(is_wanted, now_s_); }

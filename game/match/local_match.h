@@ -1,6 +1,7 @@
 // A match on this machine: two at one keyboard, one against a bot, or two bots to watch.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "game/control/key_log.h"
 #include "game/control/match_flow.h"
 #include "game/control/playing.h"
+#include "game/match/hand_spring.h"
 #include "game/match/match_source.h"
 #include "game/match/noises.h"
 #include "game/match/sight.h"
@@ -38,6 +40,8 @@ class LocalMatch final : public MatchSource {
   const MatchSight& sight() const override { return sight_; }
   std::uint32_t hand_count() const override { return static_cast<std::uint32_t>(hands_.size()); }
   void press(std::uint32_t hand, Key key, bool is_down) override;
+  void reach(std::uint32_t hand, const std::optional<Vector2>& place) override;
+  std::string why_keys_alone() const override { return ""; }
   void pause(bool is_wanted) override;
   void rematch() override;
 
@@ -60,12 +64,14 @@ class LocalMatch final : public MatchSource {
   };
   void begin(double now_s);
   void play(double duration_s);
+  void push_bats();
   void show();
 
   Scene scene_;
   LocalMatchSettings settings_;
   MatchFlow flow_;
-  std::vector<std::uint32_t> hands_;  ///< bats that persons play
+  std::vector<std::uint32_t> hands_;   ///< bats that persons play
+  std::array<HandSpring, 2> springs_;  ///< by hand
   std::unique_ptr<Playing> playing_;
   std::vector<PressedKey> pressed_;
   std::vector<KeyLog> finished_;

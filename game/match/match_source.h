@@ -92,6 +92,12 @@ class MatchSource {
   /// Directions are those of the field: `right` is towards larger x. Takes effect at the instant of
   /// the next advance().
   virtual void press(std::uint32_t hand, Key key, bool is_down) = 0;
+  /// Person `hand`'s pointer or stick is at `place` on the field [m] from the next advance() on,
+  /// and a spring pulls the bat there (hand_spring.h); nothing: it is let go. Where the match takes
+  /// keys alone it has no effect.
+  virtual void reach(std::uint32_t, const std::optional<Vector2>&) {}
+  /// Why it has none; empty where it has.
+  virtual std::string why_keys_alone() const { return "Here bats are moved by keys alone"; }
 
   /// Pauses or resumes the match, if this player may.
   virtual void pause(bool is_wanted) = 0;

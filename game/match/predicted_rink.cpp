@@ -48,11 +48,24 @@ void PredictedRink::press(Key key, bool is_down, double instant) {
   if constexpr (checks_whole_structures) check();
 }
 
+void PredictedRink::push(const Push& push, double instant) {
+  assert(own_ && std::isfinite(instant) && instant >= now_ && is_sound(push));
+  keys_.push(push, instant);
+  if constexpr (checks_whole_structures) check();
+}
+
+PulledBat PredictedRink::own_bat() const {
+  assert(own_ && has_looked_);
+  return {shown_bats_[*own_].position, shown_bats_[*own_].velocity, world_.thrust(*own_),
+          world_.drag()};
+}
+
 void PredictedRink::receive(const ReceivedRink& received) {
   if (has_received() && received.time < received_time()) return;
   const auto before = seen();
   world_.set_up(received);
   keys_.felt(received.own_felt);
+  push_own_bat();
   begin();
   if (!has_looked_) return;
   play(now_);
@@ -79,9 +92,16 @@ void PredictedRink::rewind(double now) {
   if (has_received()) {
     world_.rewind();
     keys_.apply_again();
+    push_own_bat();
     begin();
   }
   if constexpr (checks_whole_structures) check();
+}
+
+/// The own push that the update includes is known, also along an axis where the bat is held.
+void PredictedRink::push_own_bat() {
+  if (own_ && world_.received().bats[*own_].push != keys_.felt_push())
+    world_.push(*own_, keys_.felt_push());
 }
 
 void PredictedRink::begin() {
@@ -93,7 +113,8 @@ void PredictedRink::begin() {
 /// next occasion.
 void PredictedRink::apply_keys_until(double instant) {
   while (const PendingKeys::PressedKey* pressed = keys_.take_until(instant))
-    world_.press(*own_, pressed->key, pressed->is_down);
+    if (pressed->push) world_.push(*own_, *pressed->push);
+    else world_.press(*own_, pressed->key, pressed->is_down);
 }
 
 void PredictedRink::play(double until) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "game/match/hand_spring.h"
 #include "game/match/jump_blends.h"
 #include "game/match/pending_keys.h"
 #include "game/match/predicted_world.h"
@@ -30,6 +31,8 @@ class PredictedRink {
   /// The own player's next key takes effect at `instant` [s], not before now() (asserted), nor
   /// before the last key.
   void press(Key key, bool is_down, double instant);
+  /// As press: the own player's next push.
+  void push(const Push& push, double instant);
 
   /// Applies an update of the server unless one as new was received before; a new match needs a new
   /// PredictedRink.
@@ -56,6 +59,9 @@ class PredictedRink {
   const Corrections& own_corrections() const { return blends_.of_own_bat(); }
   const Corrections& other_corrections() const { return blends_.of_other_bats(); }
   const Corrections& puck_corrections() const { return blends_.of_pucks(); }
+  /// The own bat as it is shown, for the spring that pulls it; it must have been received
+  /// (asserted).
+  PulledBat own_bat() const;
   std::size_t keys_waiting() const {
     return keys_.count();
   }  ///< pressed, but not yet known to be felt
@@ -66,6 +72,7 @@ class PredictedRink {
 
  private:
   void begin();
+  void push_own_bat();
   void apply_keys_until(double instant);
   void play(double until);
   std::vector<std::optional<Vector2>> seen() const;

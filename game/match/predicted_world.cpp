@@ -9,21 +9,12 @@
 #include "game/control/bat_controller.h"
 
 namespace rink::game {
-namespace {
-
-Vector2 thrust_of(const KeysHeld& held, double thrust) {
-  BatController controller(thrust);
-  for (const Key key : all_keys)
-    if (held.is_down(key)) controller.press(key, true);
-  return controller.thrust();
-}
-
-}  // namespace
 
 PredictedWorld::PredictedWorld(const Scene& scene)
     : scene_(scene),
       ids_(scene.bodies.bats.size() + scene.bodies.pucks.size()),
       held_(scene.bodies.bats.size()),
+      pushes_(held_.size()),
       left_at_(ids_.size(), Vector2(0.0, 0.0)) {
   scene_.world.allow_overlap = true;  // received positions are rounded
 }
@@ -45,6 +36,12 @@ void PredictedWorld::rewind() {
 void PredictedWorld::press(std::uint32_t bat, Key key, bool is_down) {
   assert(is_set_up() && bat < bat_count());
   held_[bat].set(key, is_down);
+  set_thrust(bat);
+}
+
+void PredictedWorld::push(std::uint32_t bat, const Push& push) {
+  assert(is_set_up() && bat < bat_count());
+  pushes_[bat] = push;
   set_thrust(bat);
 }
 
@@ -76,11 +73,17 @@ const Vector2& PredictedWorld::half_extent(std::uint32_t bat) const {
   return scene_.bodies.bats[bat].body.half_extent;
 }
 
+double PredictedWorld::thrust(std::uint32_t bat) const {
+  assert(bat < bat_count());
+  return scene_.bodies.bats[bat].thrust;
+}
+
 void PredictedWorld::add_bat(std::uint32_t bat) {
   const ReceivedBody& received = received_.bats[bat];
   ids_[bat].reset();
   left_at_[bat] = received.position;
   held_[bat] = received.held;
+  pushes_[bat] = received.push;
   if (!received.is_known) return;
   physics::BatSpec body = scene_.bodies.bats[bat].body;
   body.position = inside(received.position, body);
@@ -123,7 +126,8 @@ Vector2 PredictedWorld::inside(const Vector2& position, double radius) const {
 
 void PredictedWorld::set_thrust(std::uint32_t bat) {
   if (ids_[bat])
-    world_->set_thrust(*ids_[bat], thrust_of(held_[bat], scene_.bodies.bats[bat].thrust));
+    world_->set_thrust(*ids_[bat],
+                       BatController(thrust(bat), held_[bat], 0, pushes_[bat]).thrust());
 }
 
 }  // namespace rink::game

@@ -16,9 +16,11 @@ namespace rink::game {
 struct ReceivedBody {
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   KeysHeld held;                                   ///< of bats
-  bool is_in_play = true;                          ///< of pucks: not in a goal
-  bool is_known = true;  ///< otherwise it is shown at `position` and does not collide: one of a
-                         ///< crowd that is too far away to matter
+  Push push{};  ///< of bats, as far as the motion shows it: 0 along an axis where none acts or
+                ///< something holds the bat
+  bool is_in_play = true;  ///< of pucks: not in a goal
+  bool is_known = true;    ///< otherwise it is shown at `position` and does not collide: one of a
+                           ///< crowd that is too far away to matter
 };
 
 /// The state at the simulated instant `time` [s] of every bat and puck of the scene, in their order
@@ -40,6 +42,7 @@ class PredictedWorld {
   void rewind();
   /// The bat's player presses or releases a key. It must be set up.
   void press(std::uint32_t bat, Key key, bool is_down);
+  void push(std::uint32_t bat, const Push& push);
   /// Plays to the instant `until` [s], not before the last.
   void advance(double until);
 
@@ -53,6 +56,8 @@ class PredictedWorld {
   std::size_t puck_count() const { return ids_.size() - held_.size(); }
   std::size_t body_count() const { return ids_.size(); }
   const Vector2& half_extent(std::uint32_t bat) const;
+  double thrust(std::uint32_t bat) const;                ///< of a held key [m/s^2]
+  double drag() const { return scene_.world.bat_drag; }  ///< of bats [1/s]
 
  private:
   void add_bat(std::uint32_t bat);
@@ -66,6 +71,7 @@ class PredictedWorld {
   ReceivedRink received_;  ///< the update that the world was set up from, and its time origin
   std::vector<std::optional<physics::BodyId>> ids_;  ///< nothing for a puck that was out of play
   std::vector<KeysHeld> held_;                       ///< by bat
+  std::vector<Push> pushes_;                         ///< by bat
   std::vector<Vector2> left_at_;  ///< its received place while it is out of play or not known
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "game/control/match_flow.h"
+#include "game/model/push.h"
 #include "game/physics/body.h"
 #include "rti/wire/stream.h"
 
@@ -67,6 +68,19 @@ struct KeyCharacter {
   std::uint8_t character = 0;
 };
 
+/// A push, in steps of 1/127 of the thrust, with 127 for none: octets have no sign.
+struct PushSteps {
+  std::uint8_t x = Push::whole, y = Push::whole;
+};
+inline PushSteps steps_of(const Push& push) {
+  return {static_cast<std::uint8_t>(push.x + Push::whole),
+          static_cast<std::uint8_t>(push.y + Push::whole)};
+}
+inline Push push_of(const PushSteps& steps) {
+  return {static_cast<std::int8_t>(steps.x - Push::whole),
+          static_cast<std::int8_t>(steps.y - Push::whole)};
+}
+
 /// The bat given to a player (bat k is the object called "bat-k"; all bits set for none) and its
 /// place: enough to declare a first interest.
 struct SeatOffer {
@@ -119,19 +133,20 @@ bool exchange(Stream& stream, SceneText& scene) {
 template <class Stream>
 bool exchange(Stream& stream, MatchState& state) {
   auto phase = static_cast<std::uint8_t>(state.phase),
-       wants = static_cast<std::uint8_t>((state.wants_rematch[0] ? 1 : 0) |
-                                         (state.wants_rematch[1] ? 2 : 0) |
-                                         (state.is_unrecorded ? 4 : 0));
+       wants = static_cast<std::uint8_t>(
+           (state.wants_rematch[0] ? 1 : 0) | (state.wants_rematch[1] ? 2 : 0) |
+           (state.is_unrecorded ? 4 : 0) | (state.takes_keys_alone ? 8 : 0));
   auto winner = static_cast<std::uint8_t>(state.winner.value_or(Team::none));
   const bool is_sound = stream.number(state.number) &&
                         stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) &&
-                        stream.range(wants, 7) && stream.range(winner, 2) &&
+                        stream.range(wants, 15) && stream.range(winner, 2) &&
                         stream.finite(state.until_s) && stream.finite(state.clock_real_s) &&
                         stream.finite(state.clock_simulated_s);
   if (!is_sound || !Stream::is_reading) return is_sound;
   state.phase = static_cast<MatchPhase>(phase);
   state.wants_rematch = {(wants & 1) != 0, (wants & 2) != 0};
   state.is_unrecorded = (wants & 4) != 0;
+  state.takes_keys_alone = (wants & 8) != 0;
   state.winner.reset();
   if (static_cast<Team>(winner) != Team::none) state.winner = static_cast<Team>(winner);
   return true;
@@ -181,6 +196,12 @@ bool exchange(Stream& stream, Extent& extent) {
 template <class Stream>
 bool exchange(Stream& stream, KeyCharacter& key) {
   return stream.number(key.character);
+}
+
+template <class Stream>
+bool exchange(Stream& stream, PushSteps& steps) {
+  constexpr std::uint8_t most = 2 * Push::whole;
+  return stream.range(steps.x, most) && stream.range(steps.y, most);
 }
 
 template <class Stream>

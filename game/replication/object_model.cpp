@@ -78,6 +78,7 @@ ObjectModel::ObjectModel(const rti::Fom& fom)
       inspect(interaction_class(fom, "Inspect")),
       interest(interaction_class(fom, "Interest")),
       pace(interaction_class(fom, "Pace")),
-      exact(varying_attribute(fom, entity, "exact")) {}
+      exact(varying_attribute(fom, entity, "exact")),
+      push(interaction_class(fom, "Push")) {}
 
 }  // namespace rink::game

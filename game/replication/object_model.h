@@ -23,6 +23,7 @@ struct ObjectModel {
   rti::InteractionClassHandle inspect, interest;           ///< of watchers
   rti::InteractionClassHandle pace;  ///< of servers that wait for turns or keep logical time
   rti::AttributeHandle exact;        ///< of entity
+  rti::InteractionClassHandle push;  ///< of hosted matches
 };
 
 }  // namespace rink::game

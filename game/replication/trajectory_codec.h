@@ -14,7 +14,7 @@ namespace rink::game {
 /// all others in full; after another one mostly as its residual.
 class TrajectoryCodec : public rti::AttributeCodec {
  public:
-  std::string name() const override { return "rink-trajectory-3"; }
+  std::string name() const override { return "rink-trajectory-4"; }
   void encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const override;
   std::optional<std::size_t> size(rti::Bytes coded) const override;
   bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;

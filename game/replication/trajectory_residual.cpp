@@ -18,7 +18,8 @@ using Counts = std::array<std::int64_t, 2>;
 
 /// Of the lateness of a trajectory in steps of time, and of places. Velocities have one of four
 /// orders: a bat whose keys changed keeps its velocity, a graze changes it little, a hit a lot.
-constexpr unsigned late_order = 4, position_order = 1, class_bits = 2, along_bits = 2;
+constexpr unsigned late_order = 4, position_order = 1, class_bits = 2, along_bits = 2,
+                   along_part = 3, steps_bits = 8;
 /// Of the velocity that a companion's momentum leaves open: a larger one is of two other impacts.
 constexpr unsigned impact_order = 1, impact_bits_max = 16;
 constexpr std::array<unsigned, 4> velocity_orders{1, 6, 9, 11};
@@ -89,30 +90,45 @@ std::int64_t time_count(double time) {
   return static_cast<std::int64_t>(std::floor(time / trajectory_time_step));
 }
 
-/// The law of a trajectory: as before, that of the held keys, or rest.
+/// The law of a trajectory: as before, that of the held keys or of a push, or rest.
 enum class Law : std::uint8_t { same, keys, rest };
+
+/// What so many steps of a push give of `thrust` [m/s^2], as trajectories tell accelerations.
+double acceleration_of(int steps, double thrust) {
+  return static_cast<double>(static_cast<float>(thrust * share_of_thrust(steps)));
+}
+/// The steps that give `acceleration`, nothing if none do.
+std::optional<int> steps_of(double acceleration, double thrust) {
+  if (acceleration == 0.0) return 0;
+  if (!(thrust > 0.0) || !(std::abs(acceleration) <= thrust)) return std::nullopt;
+  const int steps = static_cast<int>(std::lround(acceleration / thrust * Push::whole));
+  return steps != 0 && acceleration_of(steps, thrust) == acceleration ? std::optional(steps)
+                                                                      : std::nullopt;
+}
 
 std::optional<Law> law_of(const Trajectory& t, const Trajectory& former, const Shape& shape) {
   if (t == Trajectory{.position = t.position}) return Law::rest;
   if (t.acceleration == former.acceleration && t.drag == former.drag) return Law::same;
   const auto thrust = static_cast<double>(shape.thrust);
-  const auto is_push = [thrust](double value) {
-    return value == 0.0 || (thrust > 0.0 && std::abs(value) == thrust);
-  };
   const bool is_own = t.drag == Vector2::Constant(Trajectory::of_its_kind);
-  return is_own && is_push(t.acceleration.x()) && is_push(t.acceleration.y())
+  return is_own && steps_of(t.acceleration.x(), thrust) && steps_of(t.acceleration.y(), thrust)
              ? std::optional(Law::keys)
              : std::nullopt;
 }
 
-/// One bit for the law before, two for others; held keys add two bits an axis.
-void write_law(rti::BitWriter& bits, Law law, const Vector2& acceleration) {
+/// One bit for the law before, two for others; held keys add two bits an axis, and a part of the
+/// thrust eight more.
+void write_law(rti::BitWriter& bits, Law law, const Vector2& acceleration, double thrust) {
   bits.flag(law == Law::same);
   if (law == Law::same) return;
   bits.flag(law == Law::keys);
   if (law != Law::keys) return;
-  for (const double each : {acceleration.x(), acceleration.y()})
-    bits.bits(each == 0.0 ? 0u : each > 0.0 ? 1u : 2u, along_bits);
+  for (const double each : {acceleration.x(), acceleration.y()}) {
+    const int steps = *steps_of(each, thrust);
+    const bool is_part = steps != 0 && std::abs(steps) != Push::whole;
+    bits.bits(is_part ? along_part : steps == 0 ? 0u : steps > 0 ? 1u : 2u, along_bits);
+    if (is_part) bits.bits(static_cast<unsigned>(steps + Push::whole), steps_bits);
+  }
 }
 
 std::optional<Law> read_law(rti::BitReader& bits, const Shape& shape, Trajectory& t) {
@@ -124,8 +140,14 @@ std::optional<Law> read_law(rti::BitReader& bits, const Shape& shape, Trajectory
   const auto thrust = static_cast<double>(shape.thrust);
   for (int axis = 0; axis < 2; ++axis) {
     unsigned along = 0;
-    if (!bits.bits(along, along_bits) || along > 2) return std::nullopt;
+    if (!bits.bits(along, along_bits)) return std::nullopt;
     t.acceleration[axis] = along == 0 ? 0.0 : along == 1 ? thrust : -thrust;
+    if (along != along_part) continue;
+    unsigned biased = 0;
+    if (!bits.bits(biased, steps_bits)) return std::nullopt;
+    const int steps = static_cast<int>(biased) - Push::whole;
+    if (steps == 0 || std::abs(steps) >= Push::whole) return std::nullopt;
+    t.acceleration[axis] = acceleration_of(steps, thrust);
   }
   return Law::keys;
 }
@@ -251,7 +273,7 @@ bool write_residual(rti::BitWriter& bits, const TrajectoryBasis& basis, const Tr
                turned = difference(*velocity, counts_of(lead.velocity, basis.former.velocity,
                                                         trajectory_velocity_step));
   if (impact != nullptr && size_of(turned, impact_order) > impact_bits_max) return false;
-  write_law(bits, *law, t.acceleration);
+  write_law(bits, *law, t.acceleration, static_cast<double>(basis.shape.thrust));
   if (!is_resting && impact == nullptr) bits.golomb(static_cast<std::uint64_t>(late), late_order);
   write(bits, moved, position_order);
   if (is_resting) return true;

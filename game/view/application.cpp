@@ -185,6 +185,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
     words = picture_from(choice.viewpoint, canvas);
   }
   words.is_split = has_two;
+  add_hand_words(words, now_s);
   if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) {
     words.texts.push_back(replay_line(*replay));
     if (!sight.notice.empty() && !std::exchange(is_told_, true) && surroundings_.notify)
@@ -204,6 +205,7 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   hear_events(interface);
   if (const Thing* asked = interest_.is_shown ? asked_thing(match_->sight(), interest_) : nullptr)
     match_->inspect(asked->id);
+  move_hand();
   match_->advance(now_s);
   follow_phase();
   if (surroundings_.sound && wish_.kind != MatchWish::Kind::bots)

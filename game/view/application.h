@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "game/view/hand_control.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
 #include "game/view/menu.h"
@@ -89,6 +90,9 @@ class Application {
   void release_all();
   void set_split(bool is_wanted);
   Sight seen() const;
+  Vector2 under_pointer() const;
+  void move_hand();
+  void add_hand_words(Picture& picture, double now_s);
   void drag(double across, double down);
   void click();
 
@@ -106,6 +110,7 @@ class Application {
   bool shows_figures_ = false, follows_ = false;
   bool is_told_ = false;  ///< whether a replay's result was reported
   Mouse mouse_;
+  HandControl hand_;
   WindowSize size_;
   double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;
   bool wants_to_quit_ = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "game/control/bat_controller.h"
 #include "game/match/replay_match.h"
 #include "game/view/application.h"
 #include "game/view/window/glfw.h"
@@ -29,7 +30,8 @@ void Application::hear_events(Interface& interface) {
     if (event->kind == Kind::close) wants_to_quit_ = true;
     else if (event->kind == Kind::key) hear_key(event->key, event->is_down);
     else if (event->kind == Kind::focus_lost) release_all();
-    else if (menu_.screen() == Menu::Screen::none) hear_mouse(*event);
+    hand_.hear(*event);
+    if (menu_.screen() == Menu::Screen::none) hear_mouse(*event);
   }
 }
 
@@ -136,6 +138,7 @@ bool Application::hear_replay(KeyCode code) {
 /// inspects a thing.
 void Application::hear_mouse(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
+  const bool is_pointer = settings_.control == Control::pointer && match_->hand_count() > 0;
   if (event.kind == Kind::scroll)
     view_.zoom = std::clamp(view_.zoom * std::pow(1.15, event.y), 1.0, 40.0);
   else if (event.kind == Kind::mouse_button && event.is_down)
@@ -144,7 +147,7 @@ void Application::hear_mouse(const WindowEvent& event) {
            mouse_.dragged < click_reach)
     click();
   else if (event.kind == Kind::mouse_move) {
-    if (mouse_.is_dragging) drag(event.x - mouse_.x, event.y - mouse_.y);
+    if (mouse_.is_dragging && !is_pointer) drag(event.x - mouse_.x, event.y - mouse_.y);
     mouse_.x = event.x, mouse_.y = event.y;
   }
 }
@@ -178,6 +181,53 @@ void Application::click() {
   if (const auto thing =
           thing_at(match_->sight(), sight.on_table(at).cast<double>(), click_reach * pixel))
     interest_.picked = thing;
+}
+
+/// The place on the table under the pointer [m], as the player of hand 0 sees it.
+Vector2 Application::under_pointer() const {
+  const Vector2 pointer = hand_.pointer().value_or(Vector2(0.0, 0.0));
+  const int width = is_split() ? size_.width / 2 : size_.width;
+  ViewChoice choice = view_;
+  choice.viewpoint = viewpoint_of(0);
+  const double aspect = static_cast<double>(width) / size_.height;
+  const Sight sight(camera_of(match_->sight().field, choice, aspect), static_cast<float>(aspect));
+  const Eigen::Vector2f at(static_cast<float>(2.0 * pointer.x() / width - 1.0),
+                           static_cast<float>(1.0 - 2.0 * pointer.y() / size_.height));
+  return sight.on_table(at).cast<double>();
+}
+
+/// Pulls the bat of the only player, or of the left of two, towards the hand; not in menus, and not
+/// while keys are held.
+void Application::move_hand() {
+  if (match_->hand_count() == 0) return;
+  const MatchSight& sight = match_->sight();
+  const game::Team team = sight.own_team.value_or(game::Team::left);
+  const auto bat = std::ranges::find_if(sight.things, [team](const Thing& thing) {
+    return thing.kind == physics::BodyKind::bat && thing.team == team;
+  });
+  const bool has_keys =
+      std::ranges::any_of(held_, [](const HeldKey& held) { return held.hand == 0; });
+  if (menu_.screen() != Menu::Screen::none || has_keys || bat == sight.things.end())
+    return match_->reach(0, std::nullopt);
+  const auto way = [this](game::Key key) {
+    game::KeysHeld keys;
+    keys.set(seen_from(viewpoint_of(0), key), true);
+    return game::direction(keys);
+  };
+  match_->reach(0, hand_.place(settings_, {.field = sight.field,
+                                           .bat = bat->position,
+                                           .under = under_pointer(),
+                                           .right = way(game::Key::right),
+                                           .up = way(game::Key::up)}));
+}
+
+/// While a match is played by a person.
+void Application::add_hand_words(Picture& picture, double now_s) {
+  if (match_->hand_count() == 0 || match_->sight().phase != Phase::playing) return;
+  const HandControl::Words words = hand_.words(settings_, match_->why_keys_alone(), now_s);
+  if (!words.text.empty())
+    picture.texts.push_back({.words = words.text, .y = 0.895f, .size = 0.03f, .has_plate = true});
+  if (words.is_new && surroundings_.notify) surroundings_.notify(words.text);
 }
 
 /// A single player may use either set of keys; directions are those of the player's view.

@@ -28,6 +28,7 @@ class MatchAmongPeers final : public game::MatchSource {
   void press(std::uint32_t hand, game::Key key, bool is_down) override {
     if (match_) match_->press(hand, key, is_down);
   }
+  std::string why_keys_alone() const override { return "A match among peers takes keys alone"; }
   void pause(bool is_wanted) override {
     if (match_) match_->pause(is_wanted);
   }

@@ -211,6 +211,27 @@ void Menu::draw_keys(Settings& settings) {
   ImGui::EndTable();
 }
 
+/// Further sliders are there only for who needs them.
+void Menu::draw_control(Settings& settings) const {
+  constexpr std::array labels{"Control: keys", "Control: pointer", "Control: gamepad"};
+  const auto number = static_cast<std::size_t>(settings.control);
+  ImGui::SameLine();
+  if (ImGui::Button((std::string(labels[number]) + "##control").c_str()))
+    settings.control = static_cast<Control>((number + 1) % labels.size());
+  if (settings.control == Control::keys) return;
+  const auto slider = [this](const char* words, double least, double most, double& value) {
+    auto now = static_cast<float>(value);
+    ImGui::SetNextItemWidth(190.0f * unit_);
+    if (ImGui::SliderFloat(words, &now, static_cast<float>(least), static_cast<float>(most),
+                           "%.2f"))
+      value = std::clamp(static_cast<double>(now), least, most);
+  };
+  slider("Sensitivity", sensitivity_min, sensitivity_max, settings.sensitivity);
+  if (settings.control != Control::gamepad) return;
+  ImGui::SameLine();
+  slider("Dead zone", 0.0, dead_zone_max, settings.dead_zone);
+}
+
 void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   begin_panel("settings", 760.0f, 0.60f);
   const Settings before = settings;
@@ -227,6 +248,7 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
     wish.kind = MenuWish::Kind::full_screen;
   ImGui::SameLine();
   ImGui::Checkbox("Split screen for two", &settings.is_split);
+  draw_control(settings);
   ImGui::PopFont();
   if (button("Keys as they were")) settings.keys = default_keys();
   if (button("Back")) open(back_);

@@ -73,6 +73,7 @@ class Menu {
                     const char* verb);
   void draw_settings(Settings& settings, MenuWish& wish);
   void draw_keys(Settings& settings);
+  void draw_control(Settings& settings) const;
   void draw_paused(MenuWish& wish);
   void draw_over(MenuWish& wish, const MatchSight& sight);
   void draw_title() const;

@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace rink::view {
 namespace {
@@ -21,13 +23,39 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
+/// Two numbers within `most` each way.
+std::optional<std::pair<double, double>> numbers_of(const std::string& text, double most) {
+  std::istringstream words(text);
+  double x = 0.0, y = 0.0;
+  std::string rest;
+  if (!(words >> x >> y) || words >> rest || !(std::abs(x) <= most && std::abs(y) <= most))
+    return std::nullopt;
+  return std::pair(x, y);
+}
+
+WindowEvent hand_event(const std::string& what, const std::string& rest, const std::string& where) {
+  using Kind = WindowEvent::Kind;
+  if (what == "gamepad") {
+    if (rest != "on" && rest != "off") throw ScriptError(where + "gamepad must be on or off");
+    return {.kind = Kind::gamepad, .is_down = rest == "on"};
+  }
+  const bool is_stick = what == "stick";
+  const auto place = numbers_of(rest, is_stick ? 1.0 : 1e3);
+  if (!place)
+    throw ScriptError(where + what +
+                      (is_stick ? " needs two numbers from -1 to 1: right and up"
+                                : " needs a place on the field: two numbers of metres"));
+  return {.kind = is_stick ? Kind::stick : Kind::pointer, .x = place->first, .y = place->second};
+}
+
 void read_step(std::istringstream& line, const std::string& where, std::vector<ScriptStep>& steps) {
   ScriptStep step;
   std::string what, rest;
   if (!(line >> step.time >> what) || !std::isfinite(step.time) || step.time < 0.0)
     throw ScriptError(
         where +
-        "expected a time in seconds, 0 or more, and one of: down, up, tap, text, picture, end");
+        "expected a time in seconds, 0 or more, and one of: down, up, tap, text, pointer, stick, "
+        "gamepad, picture, end");
   std::getline(line, rest);
   rest = trimmed(rest);
   if (what == "text") {
@@ -39,6 +67,8 @@ void read_step(std::istringstream& line, const std::string& where, std::vector<S
     step.picture = rest;
   } else if (what == "end") {
     step.is_end = true;
+  } else if (what == "pointer" || what == "stick" || what == "gamepad") {
+    step.events.push_back(hand_event(what, rest, where));
   } else if (what == "down" || what == "up" || what == "tap") {
     const auto code = key_code_from_name(rest);
     if (!code)
@@ -50,8 +80,9 @@ void read_step(std::istringstream& line, const std::string& where, std::vector<S
       steps.push_back(
           {.time = step.time + tap_s, .events = {key_event(*code, false)}, .picture = {}});
   } else {
-    throw ScriptError(where + "'" + what +
-                      "' is unknown: expected down, up, tap, text, picture or end");
+    throw ScriptError(
+        where + "'" + what +
+        "' is unknown: expected down, up, tap, text, pointer, stick, gamepad, picture or end");
   }
   steps.push_back(step);
 }

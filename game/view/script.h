@@ -1,5 +1,5 @@
-// Keys pressed by a file instead of a person, and pictures taken at given times: how tests and
-// demonstrations drive the window.
+// Keys pressed and pointers moved by a file instead of a person, and pictures taken at given times:
+// how tests and demonstrations drive the window.
 #pragma once
 
 #include <span>
@@ -27,8 +27,9 @@ struct ScriptStep {
 };
 
 /// One step a line: `TIME down KEY`, `TIME up KEY`, `TIME tap KEY` (down, and up 0.05 s later),
-/// `TIME text WORDS`, `TIME picture FILE.png`, `TIME end`; a # starts a comment. Ordered by time.
-/// Throws ScriptError; `file` is named in errors.
+/// `TIME text WORDS`, `TIME pointer X Y` (a place on the field [m]), `TIME stick X Y` (-1 to 1,
+/// right and up), `TIME gamepad on` or `off`, `TIME picture FILE.png`, `TIME end`; a # starts a
+/// comment. Ordered by time. Throws ScriptError; `file` is named in errors.
 std::vector<ScriptStep> parse_script(std::string_view text, const std::string& file);
 std::vector<ScriptStep> read_script(const std::string& file);
 

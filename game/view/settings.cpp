@@ -53,16 +53,36 @@ class Reader {
                                 : settings.is_split) = *value;
       else problem(node, std::string(key) + " must be true or false");
     } else if (key == "volume") {
-      const auto value = node.value<double>();
-      if (value && *value >= 0.0 && *value <= 1.0) settings.volume = *value;
-      else problem(node, "volume must be a number from 0 to 1");
+      read_number(node, "volume", 0.0, 1.0, settings.volume);
+    } else if (key == "control") {
+      const auto name = node.value_exact<std::string>();
+      if (const auto control = name ? control_from_name(*name) : std::nullopt)
+        settings.control = *control;
+      else problem(node, "control must be \"keys\", \"pointer\" or \"gamepad\"");
+    } else if (key == "dead_zone") {
+      read_number(node, "dead_zone", 0.0, dead_zone_max, settings.dead_zone);
+    } else if (key == "sensitivity") {
+      read_number(node, "sensitivity", sensitivity_min, sensitivity_max, settings.sensitivity);
     } else if (key == "keys" && node.is_table()) {
       read_keys(*node.as_table());
     } else {
       problem(node,
               "there is no setting '" + std::string(key) +
-                  "'; there are: mute, volume, full_screen, split_screen, keys.left, keys.right");
+                  "'; there are: mute, volume, full_screen, split_screen, control, dead_zone, "
+                  "sensitivity, keys.left, keys.right");
     }
+  }
+
+  void read_number(const toml::node& node, const char* name, double least, double most,
+                   double& number) {
+    const auto value = node.value<double>();
+    if (value && *value >= least && *value <= most) {
+      number = *value;
+      return;
+    }
+    std::ostringstream words;
+    words << name << " must be a number from " << least << " to " << most;
+    problem(node, words.str());
   }
 
   void read_keys(const toml::table& table) {
@@ -118,6 +138,12 @@ class Reader {
 
 }  // namespace
 
+std::optional<Control> control_from_name(std::string_view name) {
+  const auto found = std::ranges::find(control_names, name);
+  if (found == control_names.end()) return std::nullopt;
+  return static_cast<Control>(found - control_names.begin());
+}
+
 Settings::Settings() : keys(default_keys()) {}
 
 std::array<KeySet, 2> default_keys() {
@@ -150,7 +176,10 @@ std::string settings_text(const Settings& settings) {
           "4, comma, ...\n";
   text << "mute = " << (settings.is_muted ? "true" : "false") << "\nvolume = " << settings.volume
        << "\nfull_screen = " << (settings.is_full_screen ? "true" : "false")
-       << "\nsplit_screen = " << (settings.is_split ? "true" : "false") << '\n';
+       << "\nsplit_screen = " << (settings.is_split ? "true" : "false") << "\ncontrol = \""
+       << control_names[static_cast<std::size_t>(settings.control)]
+       << "\"  # keys, pointer or gamepad\ndead_zone = " << settings.dead_zone
+       << "\nsensitivity = " << settings.sensitivity << '\n';
   for (std::size_t player = 0; player < player_tables.size(); ++player) {
     text << "\n[keys." << player_tables[player] << "]\n";
     for (const game::Key key : game::all_keys)

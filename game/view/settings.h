@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,8 +24,17 @@ std::optional<KeyCode> key_code_from_name(std::string_view name);
 /// Keys of one player, in the order of game::all_keys: left, right, up, down.
 using KeySet = std::array<KeyCode, 4>;
 
+/// What moves a player's bat beside the keys, or that nothing does.
+enum class Control : std::uint8_t { keys, pointer, gamepad };
+inline constexpr std::array<const char*, 3> control_names{"keys", "pointer", "gamepad"};
+/// Nothing if `name` is none of control_names.
+std::optional<Control> control_from_name(std::string_view name);
+
 struct Settings {
-  std::array<KeySet, 2> keys;  ///< of the left and the right player
+  std::array<KeySet, 2> keys;       ///< of the left and the right player
+  Control control = Control::keys;  ///< of the only player, or of the left of two
+  double dead_zone = 0.15;          ///< of a gamepad's stick, of its way to the rim: 0 to 0.9
+  double sensitivity = 1.0;         ///< how far pointer or stick move the hand: 0.2 to 5
   bool is_muted = false;
   double volume = 0.7;  ///< 0 to 1
   bool is_full_screen = false;
@@ -32,6 +42,8 @@ struct Settings {
   Settings();
   friend bool operator==(const Settings&, const Settings&) = default;
 };
+
+inline constexpr double dead_zone_max = 0.9, sensitivity_min = 0.2, sensitivity_max = 5.0;
 
 /// The default keys: WASD for the left player, the arrows for the right.
 std::array<KeySet, 2> default_keys();

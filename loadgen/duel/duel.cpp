@@ -11,7 +11,9 @@ namespace rink::loadgen {
 std::int64_t JitteredDelay::arrival_ns(std::uint32_t, std::int64_t now_ns, std::size_t) {
   const double late_s =
       jitter_s_ == 0.0 ? 0.0 : jitter_s_ * std::min(5.0, -std::log1p(-random_.uniform()));
-  return now_ns + nanoseconds(delay_s_ + late_s);
+  double lost_s = 0.0;
+  while (loss_ > 0.0 && random_.uniform() < loss_) lost_s += 0.2 + 2.0 * delay_s_;
+  return now_ns + nanoseconds(delay_s_ + late_s + lost_s);
 }
 
 Duel::Client::Client(rti::VirtualNetwork& network, const rti::Fom& fom,
@@ -25,7 +27,7 @@ Duel::Duel(const rti::Fom& fom, const game::Scene& scene, const std::string& sce
     : fom_(fom),
       model_(fom),
       settings_(settings),
-      link_(settings.delay_s, settings.jitter_s, settings.seed),
+      link_(settings.delay_s, settings.jitter_s, settings.loss, settings.seed),
       network_(link_, nanoseconds(1.0)),
       serving_(fom, scene,
                {.policy = "on-event",

@@ -18,25 +18,28 @@
 namespace rink::loadgen {
 
 /// Every packet takes a fixed time and, at random, up to five times the mean of an exponential
-/// distribution longer; the network keeps them in order.
+/// distribution longer; the network keeps them in order. A lost one is sent again after a round
+/// trip and the least retransmission time-out, 0.2 s.
 class JitteredDelay final : public rti::LinkModel {
  public:
-  JitteredDelay(double delay_s, double jitter_s, std::uint64_t seed)
-      : delay_s_(delay_s), jitter_s_(jitter_s), random_(seed) {}
+  /// `loss`: of how many packets, as a fraction below 1.
+  JitteredDelay(double delay_s, double jitter_s, double loss, std::uint64_t seed)
+      : delay_s_(delay_s), jitter_s_(jitter_s), loss_(loss), random_(seed) {}
   std::int64_t arrival_ns(std::uint32_t line, std::int64_t now_ns, std::size_t size) override;
 
  private:
-  double delay_s_, jitter_s_;
+  double delay_s_, jitter_s_, loss_;
   game::RandomStream random_;
 };
 
 struct DuelSettings {
   double delay_s = 0.0;    ///< each way
   double jitter_s = 0.0;   ///< mean of the random part of the delay, each way
+  double loss = 0.0;       ///< of packets, each way
   double rate_hz = 60.0;   ///< ticks
   double frame_hz = 60.0;  ///< frames of each client, at phases of their own
   std::uint64_t seed = 1;
-  /// The player of each side: one of game::player_kinds(), which plays by what its own client
+  /// The player of each side: a kind of MatchBot, which plays by what its own client
   /// shows; empty: only the caller presses keys, by client().press().
   std::array<std::string, 2> players{};
   game::FlowTimes times{};

@@ -115,10 +115,12 @@ Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& s
   for (std::size_t k = 0; k < 2; ++k) duel.connect(k);
   duel.run_until([&] { return duel.server().hosted()->state().phase == game::MatchPhase::playing; },
                  30.0);
-  std::array<std::uint64_t, 2> bytes{};
+  std::array<std::uint64_t, 2> bytes{}, sent{};
   const double from_s = duel.now_s();
-  for (std::size_t k = 0; k < 2; ++k)
+  for (std::size_t k = 0; k < 2; ++k) {
     bytes[k] = duel.client(k).client().ambassador().counters().bytes_received;
+    sent[k] = duel.client(k).client().ambassador().counters().bytes_sent;
+  }
   duel.run_until([&] { return duel.server().hosted()->state().phase == game::MatchPhase::over; },
                  seconds);
   Feel feel;
@@ -129,8 +131,13 @@ Feel feel_of(const rti::Fom& fom, const game::Scene& scene, const std::string& s
         static_cast<double>(duel.client(k).client().ambassador().counters().bytes_received -
                             bytes[k]) /
         passed_s;
+    feel.sent_bytes_per_s +=
+        0.5 *
+        static_cast<double>(duel.client(k).client().ambassador().counters().bytes_sent - sent[k]) /
+        passed_s;
     feel.keys += duel.client(k).client().keys_sent();
   }
+  feel.pushes = duel.server().keys().counters().pushes;
   feel.late_keys = duel.server().keys().counters().late;
   feel.played_s = duel.server().game().now();
   add_corrections(duel, feel);

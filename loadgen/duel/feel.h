@@ -26,8 +26,10 @@ struct Feel {
   double lead_s = 0.0;  ///< how far the own bat is shown ahead of the other
   double payload_bytes_per_s =
       0.0;  ///< down, per player, all that was sent while the match was played
+  double sent_bytes_per_s = 0.0;  ///< up, per player
   std::uint64_t keys = 0,
                 late_keys = 0;  ///< late: felt more than 0.1 ms later than their player counted on
+  std::uint64_t pushes = 0;     ///< of `keys`
   bool is_replayed = false;     ///< the record led to the same hash
 };
 

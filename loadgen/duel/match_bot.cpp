@@ -20,6 +20,10 @@ std::vector<game::SeenEntity> nearest_pucks(const game::MatchSight& sight,
 }
 
 void MatchBot::act(game::NetworkMatch& match, double now_s) {
+  if (kind_ == pointer) {
+    const bool plays = match.sight().phase == game::MatchPhase::playing;
+    return match.reach(0, plays ? hand_.place(match.sight(), now_s) : std::nullopt);
+  }
   if (now_s < next_s_ || match.sight().phase != game::MatchPhase::playing ||
       match.scene() == nullptr || !match.player())
     return;

@@ -1,5 +1,5 @@
 // A bot that plays a hosted match as a person would: by what its own client shows, with the keys of
-// one hand.
+// one hand, or with a pointer.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "game/net/client/network_match.h"
 #include "game/players/player.h"
+#include "loadgen/duel/pointer_hand.h"
 
 namespace rink::loadgen {
 
@@ -19,8 +20,12 @@ std::vector<game::SeenEntity> nearest_pucks(const game::MatchSight& sight,
 
 class MatchBot {
  public:
-  /// `kind` is one of game::player_kinds().
-  MatchBot(std::string kind, std::uint64_t seed) : kind_(std::move(kind)), seed_(seed) {}
+  /// The kind of a hand on a pointer.
+  static constexpr const char* pointer = "pointer";
+
+  /// `kind` is `pointer` or one of game::player_kinds().
+  MatchBot(std::string kind, std::uint64_t seed)
+      : kind_(std::move(kind)), seed_(seed), hand_(seed) {}
 
   /// Decides when a decision is due, and presses keys; call it before each frame of `match`, at
   /// real time `now_s`.
@@ -34,6 +39,7 @@ class MatchBot {
   std::unique_ptr<game::Player> player_;
   game::KeysHeld held_;
   double next_s_ = 0.0;
+  PointerHand hand_;
 };
 
 }  // namespace rink::loadgen

@@ -126,6 +126,36 @@ TEST_F(PlayCommand, PlaysAgainstEachBotFromTheMenuToThePauseAndBack) {
   EXPECT_GE(goals, 1u) << "somebody scores against one who stands";
 }
 
+/// A match by pointer, its record and its hash; then one by a stick whose gamepad is pulled out.
+TEST_F(PlayCommand, PlaysByPointerAndByStickAndGoesOnByKeysWhenTheGamepadIsGone) {
+  std::string hand;
+  for (int k = 0; k < 40; ++k)
+    hand += std::to_string(3.2 + 0.1 * k) + " pointer " + std::to_string(0.3 + 0.01 * k) + " " +
+            std::to_string(k % 10 < 5 ? 0.4 : 0.8) + "\n";
+  ASSERT_EQ(play("--bot beginner --control pointer --records by-pointer", hand + "8 end\n"), 0)
+      << said_;
+  ASSERT_EQ(play("--bot beginner --control gamepad --records by-stick",
+                 "0.1 gamepad on\n3.2 stick 0 1\n3.6 stick 1 0\n4 gamepad off\n5 down w\n6 up "
+                 "w\n7 end\n"),
+            0)
+      << said_;
+  EXPECT_THAT(said_, HasSubstr("The gamepad is gone: the keys go on"));
+  for (const char* folder : {"by-pointer", "by-stick"}) {
+    const std::string record = file(std::string(folder) + "/match-1.keys");
+    const game::KeyLog log = game::read_key_log(std::filesystem::path(record));
+    EXPECT_TRUE(game::has_pushes(log)) << folder;
+    EXPECT_TRUE(Played(record).is_as_recorded) << folder;
+    double last_push_s = 0.0;
+    for (const game::InputEvent& event : log.events)
+      if (event.kind == game::InputKind::push) last_push_s = event.time;
+    if (std::string_view(folder) == "by-stick") {
+      EXPECT_LT(last_push_s, 1.1) << "the match begins after 3 s";
+    }
+  }
+  EXPECT_EQ(play("--control mouse"), 2);
+  EXPECT_THAT(said_, HasSubstr("--control"));
+}
+
 /// Each tap begins and ends in one frame; the menus see them one after the other.
 TEST_F(PlayCommand, SeesKeysThatAreDownAndUpWithinOneFrame) {
   const auto tap = [](const std::string& key) {

@@ -24,9 +24,30 @@ TEST(Settings, ReadBackWhatTheyWrite) {
                       *key_code_from_name("Left Shift")};
   settings.is_muted = true;
   settings.volume = 0.25;
+  settings.control = Control::gamepad;
+  settings.dead_zone = 0.5, settings.sensitivity = 2.5;
   const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
   EXPECT_THAT(read.errors, IsEmpty());
   EXPECT_EQ(read.settings, settings);
+}
+
+TEST(Settings, OfTheHandAreNamedWhereTheyAreWrong) {
+  const ReadSettings read = parse_settings(
+      "control = \"mouse\"\ndead_zone = 0.95\nsensitivity = 0\nvolume = 2\n", "play.toml");
+  EXPECT_THAT(read.errors,
+              ElementsAre(AllOf(HasSubstr("play.toml:1"),
+                                HasSubstr("\"keys\", \"pointer\" or \"gamepad\"")),
+                          HasSubstr("play.toml:2: dead_zone must be a number from 0 to 0.9"),
+                          HasSubstr("play.toml:3: sensitivity must be a number from 0.2 to 5"),
+                          HasSubstr("play.toml:4: volume must be a number from 0 to 1")));
+  EXPECT_EQ(read.settings, Settings());
+}
+
+/// A file of the version before has none of them.
+TEST(Settings, OfAnOlderFilePlayByKeys) {
+  const ReadSettings read = parse_settings("mute = true\nvolume = 0.5\n", "play.toml");
+  EXPECT_THAT(read.errors, IsEmpty());
+  EXPECT_EQ(read.settings.control, Control::keys);
 }
 
 TEST(Settings, EveryKeyHasOneNameAndTheNameOneKey) {

@@ -63,7 +63,8 @@ class Client : public rti::FederateAmbassador {
   /// and in every other game, at its arrival.
   void press(Key key, double instant = 0.0);
   void release(Key key, double instant = 0.0);
-  std::uint32_t keys_sent() const { return keys_sent_; }
+  /// With the pushes of its remote, which take effect as keys do.
+  std::uint32_t keys_sent() const { return keys_sent_ + (remote_ ? remote_->pushes_sent() : 0); }
   /// Synchronous mode: ends this player's turn; under time management it then asks to advance to
   /// the next tick, so only while it has the turn (asserted).
   void end_turn();

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "game/control/bat_controller.h"
 #include "game/match/sight.h"
 #include "game/model/scene_file.h"
 
@@ -25,6 +26,23 @@ ReceivedBody received_body(const EntityReplica& entity, double time) {
   for (const Key key : all_keys)
     body.held.set(key, (entity.input.held >> static_cast<unsigned>(key) & 1u) != 0);
   return body;
+}
+
+/// The steps along one axis of a push that together with keys that drive it along `way` (-1, 0 or
+/// 1) gives `acceleration` [m/s^2].
+std::int8_t steps_along(double acceleration, double thrust, double way) {
+  if (acceleration == 0.0 || !(thrust > 0.0)) return 0;
+  const double share = std::clamp(acceleration / thrust, -1.0, 1.0) - way;
+  return static_cast<std::int8_t>(std::lround(std::clamp(share, -1.0, 1.0) * Push::whole));
+}
+
+/// What a bat's motion shows of its player's push.
+Push push_of(const EntityReplica& entity, const KeysHeld& held) {
+  if (!entity.trajectory || entity.trajectory->is_resting()) return {};
+  const Vector2 way = direction(held), acceleration = entity.trajectory->acceleration;
+  const auto thrust = static_cast<double>(entity.shape.thrust);
+  return {steps_along(acceleration.x(), thrust, way.x()),
+          steps_along(acceleration.y(), thrust, way.y())};
 }
 
 /// Numbers that a trajectory may hold lead beyond all numbers after a while.
@@ -75,6 +93,7 @@ std::size_t HostedScene::add_bats(const ReplicaSet& replicas, ReceivedRink& rece
       continue;
     ReceivedBody& bat = received.bats[entity.shape.team];
     bat = received_body(entity, received.time);
+    bat.push = push_of(entity, bat.held);
     if (is_anywhere(bat)) ++count;
   }
   return count;

@@ -1,11 +1,13 @@
-// A player's requests to a hosted match beside the keys: pause, rematch, and the time.
+// A player's messages to a hosted match beside the keys: pushes, pause, rematch, and the time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "game/model/push.h"
 #include "game/replication/object_model.h"
 #include "rti/ambassador.h"
 
@@ -22,6 +24,10 @@ class MatchRemote {
   /// Publishes and subscribes to the messages of a match. Both must outlive the remote.
   MatchRemote(rti::Ambassador& ambassador, const ObjectModel& model);
 
+  /// Pushes the bat from the simulated `instant` [s] on, as a key takes effect. The client must be
+  /// playing a match whose host takes pushes.
+  void push(const Push& push, double instant);
+  std::uint32_t pushes_sent() const { return pushes_sent_; }
   /// Pauses or resumes the match.
   void pause(bool is_wanted);
   void ask_rematch() { ambassador_.send_interaction(model_.rematch, {}, {}); }
@@ -36,6 +42,8 @@ class MatchRemote {
   rti::Ambassador& ambassador_;
   const ObjectModel& model_;
   std::optional<Pong> pong_;
+  std::vector<std::byte> encoded_;
+  std::uint32_t pushes_sent_ = 0;
 };
 
 }  // namespace rink::game

@@ -85,6 +85,7 @@ void NetworkMatch::receive(double now_s) {
     rink_.emplace(*scene_.scene(), player());
     rink_->count_from(client_.keys_sent());
     match_number_ = state_.number;
+    hand_.forget();
     delay_.begin();
   }
   rink_->receive(*news);
@@ -110,6 +111,24 @@ void NetworkMatch::predict(double now_s) {
   press_keys(now);
   move_delay(now_s - now_s_);
   rink_->advance(now, delay_.seconds());
+  push_bat(now_s);
+}
+
+/// By where the own bat is shown, and felt from this frame on.
+void NetworkMatch::push_bat(double now_s) {
+  const bool is_felt = state_.phase != MatchPhase::waiting && state_.phase != MatchPhase::over;
+  if (!is_felt || !why_keys_alone().empty() || !rink_->has_received()) return;
+  const std::optional<Push> push = hand_.next(rink_->own_bat(), now_s);
+  if (!push) return;
+  const double felt_at = next_on(key_grid, rink_->now());
+  client_.remote()->push(*push, felt_at);
+  rink_->push(*push, felt_at);
+}
+
+std::string NetworkMatch::why_keys_alone() const {
+  if (settings_.only_watches || client_.state() != Client::State::playing)
+    return "No match is played";
+  return state_.takes_keys_alone ? "Hosts that share a match take keys alone" : "";
 }
 
 void NetworkMatch::press_keys(double instant) {

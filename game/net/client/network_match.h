@@ -40,6 +40,8 @@ class NetworkMatch final : public MatchSource {
   std::uint32_t hand_count() const override { return settings_.only_watches ? 0 : 1; }
   /// Every hand moves the own bat.
   void press(std::uint32_t hand, Key key, bool is_down) override;
+  void reach(std::uint32_t, const std::optional<Vector2>& place) override { hand_.reach(place); }
+  std::string why_keys_alone() const override;
   void pause(bool is_wanted) override;
   void rematch() override;
   /// In a crowd only; the server is asked ten times a second.
@@ -68,6 +70,7 @@ class NetworkMatch final : public MatchSource {
   void receive(double now_s);
   bool read_scene();
   void press_keys(double instant);
+  void push_bat(double now_s);
   void predict(double now_s);
   void move_delay(double dt);
   void show(double now_s);
@@ -87,6 +90,7 @@ class NetworkMatch final : public MatchSource {
   std::uint64_t received_updates_ = 0;
   std::uint32_t caught_up_ = 0;  ///< stamps, in this frame
   std::vector<PressedKey> pressed_;
+  HandSpring hand_;
   ShownDelay delay_;
   MatchSight sight_;
   NoiseDetector noises_;

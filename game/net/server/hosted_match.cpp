@@ -48,6 +48,7 @@ bool HostedMatch::are_keys_felt() const {
 MatchState HostedMatch::state() const {
   MatchState state = present();
   state.is_unrecorded = is_unrecorded_;
+  state.takes_keys_alone = led_.has_value();
   return state;
 }
 

@@ -37,7 +37,8 @@ struct ServeOptions {
   /// Of the physics in real time. More than a core plays in a second, so that only what would hang
   /// is slowed.
   std::uint64_t events_per_s = 2'000'000;
-  double key_limit_per_s = key_limit_default;  ///< of each player; 0: none
+  double key_limit_per_s = key_limit_default;    ///< of each player; 0: none
+  double push_limit_per_s = push_limit_default;  ///< likewise
 };
 
 /// Whether other servers share the simulation.

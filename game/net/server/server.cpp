@@ -65,7 +65,7 @@ Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& se
       sweep_(settings.sweep_ticks, settings.tick_s),
       ambassador_(fom, *this),
       seats_(game_.player_count()),
-      keys_(game_.player_count(), settings.key_limit_per_s),
+      keys_(game_.player_count(), settings.key_limit_per_s, settings.push_limit_per_s),
       turns_({.tick_s = settings.tick_s,
               .is_synchronous = settings.is_synchronous,
               .is_time_managed = settings.is_time_managed}),
@@ -98,6 +98,7 @@ void Server::joined(rti::FederateHandle) {
   if (hands_in_flights_) publisher_->hand_in_flights();
   if (hosted_) {
     board_.emplace(ambassador_, model_, hosted_->scene_text(), turns_.tick_s());
+    ambassador_.subscribe_interaction_class(model_.push);
     board_->show(hosted_->state(), {});
   }
   if (!turns_.is_time_managed()) return;
@@ -203,19 +204,23 @@ void Server::receive_interaction(rti::InteractionClassHandle interaction, rti::B
     if (shared_) shared_->match()->pause(wish.is_wanted != 0);
     else hosted_->pause(wish.is_wanted != 0, now_());
   } else {
-    receive_key(seat->player, interaction == model_.key_down, parameters, stamp.time);
+    receive_input(seat->player, interaction, parameters, stamp.time);
   }
 }
 
-void Server::receive_key(std::uint32_t player, bool is_down, rti::Bytes parameters,
-                         double wanted_s) {
+/// A key change, or a push; servers that share a game tell each other keys alone.
+void Server::receive_input(std::uint32_t player, rti::InteractionClassHandle interaction,
+                           rti::Bytes parameters, double wanted_s) {
   const double now = now_();
+  const KeyArrival arrival{.now_s = now,
+                           .simulated_s = simulated_at_clock(now),
+                           .wanted_s = hosted_ ? std::optional(wanted_s) : std::nullopt,
+                           .is_felt = !is_replay_ && (!hosted_ || hosted_->are_keys_felt())};
+  if (interaction == model_.push && (!hosted_ || shared_)) return keys_.refuse_push();
   const std::optional<InputEvent> event =
-      keys_.accept(player, is_down, parameters,
-                   {.now_s = now,
-                    .simulated_s = simulated_at_clock(now),
-                    .wanted_s = hosted_ ? std::optional(wanted_s) : std::nullopt,
-                    .is_felt = !is_replay_ && (!hosted_ || hosted_->are_keys_felt())});
+      interaction == model_.push
+          ? keys_.accept_push(player, parameters, arrival)
+          : keys_.accept(player, interaction == model_.key_down, parameters, arrival);
   if (event) submit(*event);
 }
 

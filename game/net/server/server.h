@@ -28,6 +28,9 @@ namespace rink::game {
 /// Key changes per second and player: fast hands make 30, and a bot that decides 20 times a second,
 /// of each of its four keys, never more than 80.
 inline constexpr double key_limit_default = 240.0;
+/// In hosted matches nobody has to make up for a link that stood still: what comes late there is
+/// felt late.
+inline constexpr double match_key_limit_default = 120.0;
 
 struct ServerSettings {
   std::string federation = "rink";
@@ -51,6 +54,8 @@ struct ServerSettings {
   /// beyond that are counted and acknowledged, so that the player does not wait for them, but not
   /// applied.
   double key_limit_per_s = key_limit_default;
+  /// As many pushes; a hosted match alone takes any.
+  double push_limit_per_s = push_limit_default;
   /// Events of the physics that are played in time, per simulated second; 0: any (tick_budget.h).
   std::uint64_t events_per_s = 0;
   std::optional<RelevantKinds> always_relevant{};  ///< absent: relevant_kinds_of(scene)
@@ -155,9 +160,11 @@ class Server : public rti::FederateAmbassador {
   void seat_player(rti::FederateHandle federate, std::optional<std::uint32_t> player);
   void offer_seat(rti::FederateHandle federate, const SeatOffer& offer);
   bool offer_seat(rti::FederateHandle federate, std::uint32_t player);
-  void receive_key(std::uint32_t player, bool is_down, rti::Bytes parameters, double wanted_s);
+  void receive_input(std::uint32_t player, rti::InteractionClassHandle interaction,
+                     rti::Bytes parameters, double wanted_s);
   double simulated_at_clock(double now) const;
   void submit(const InputEvent& event) {
+    assert(shared_ == nullptr || event.kind != InputKind::push);
     if (shared_ == nullptr) keys_.record(game_.submit(event));
     else shared_->press(event.player, event.key, event.kind == InputKind::key_down, event.time);
   }

@@ -3,6 +3,10 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "game/view/window/glfw.h"
@@ -42,6 +46,25 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
     if (across >= 0 && across < mode->width && down >= 0 && down < mode->height) return monitors[i];
   }
   return count > 0 ? monitors[0] : nullptr;
+}
+
+/// The left stick of gamepad `number`, right and up; nothing if there is none. A joystick that GLFW
+/// does not know as a gamepad is used by its first two axes.
+std::optional<std::pair<double, double>> stick_of(int number) {
+  if (number < 0 || !glfwJoystickPresent(number)) return std::nullopt;
+  const auto checked = [](float right, float down) -> std::optional<std::pair<double, double>> {
+    const auto within = [](float value) {
+      return std::isfinite(value) ? std::clamp(static_cast<double>(value), -1.0, 1.0) : 0.0;
+    };
+    return std::pair(within(right), -within(down));
+  };
+  GLFWgamepadstate state;
+  if (glfwJoystickIsGamepad(number) && glfwGetGamepadState(number, &state))
+    return checked(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
+  int count = 0;
+  const float* axes = glfwGetJoystickAxes(number, &count);
+  if (axes == nullptr || count < 2) return std::nullopt;
+  return checked(axes[0], axes[1]);
 }
 
 }  // namespace
@@ -105,8 +128,28 @@ void Window::listen() {
   });
 }
 
+/// GLFW tells of gamepads only who asks: the first with a stick is used until it is gone.
+void Window::listen_to_gamepad() {
+  using Kind = WindowEvent::Kind;
+  std::optional<std::pair<double, double>> stick = stick_of(gamepad_);
+  if (!stick && gamepad_ >= 0) {
+    gamepad_ = -1;
+    events_.push_back({.kind = Kind::gamepad, .is_down = false});
+  }
+  for (int number = GLFW_JOYSTICK_1; gamepad_ < 0 && number <= GLFW_JOYSTICK_LAST; ++number)
+    if ((stick = stick_of(number))) {
+      gamepad_ = number;
+      stick_x_ = stick_y_ = 0.0;
+      events_.push_back({.kind = Kind::gamepad, .is_down = true});
+    }
+  if (!stick || *stick == std::pair(stick_x_, stick_y_)) return;
+  std::tie(stick_x_, stick_y_) = *stick;
+  events_.push_back({.kind = Kind::stick, .x = stick_x_, .y = stick_y_});
+}
+
 std::vector<WindowEvent> Window::events() {
   glfwPollEvents();
+  listen_to_gamepad();
   return std::exchange(events_, {});
 }
 

@@ -39,8 +39,11 @@ class Window {
 
  private:
   void listen();
+  void listen_to_gamepad();
   GLFWwindow* window_ = nullptr;
   std::vector<WindowEvent> events_;
+  int gamepad_ = -1;  ///< GLFW's number of the one that is used; none: -1
+  double stick_x_ = 0.0, stick_y_ = 0.0;
   int x_ = 0, y_ = 0, width_ = 0, height_ = 0;  ///< before it filled the screen
 };
 

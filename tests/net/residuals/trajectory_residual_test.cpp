@@ -43,7 +43,17 @@ class Motions {
                  .velocity = vector(trajectory_velocity_step, 3.0)};
     const auto thrust = static_cast<double>(shape.thrust);
     if (thrust > 0.0 && below(3) == 0) t.acceleration = {below(2) == 0 ? thrust : 0.0, -thrust};
+    else if (thrust > 0.0 && below(2) == 0) t.acceleration = push(thrust);
     return t;
+  }
+  /// A part of the thrust, as a pointer gives it.
+  Vector2 push(double thrust) {
+    const auto part = [&] {
+      const int steps = static_cast<int>(below(2 * Push::whole + 1)) - Push::whole;
+      return static_cast<double>(static_cast<float>(thrust * share_of_thrust(steps)));
+    };
+    const double x = part();
+    return {x, part()};
   }
   /// After a hit of a body that followed `former`: near to where that leads.
   Trajectory after(const Trajectory& former, const Shape& shape, double now) {

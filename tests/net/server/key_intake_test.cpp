@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "game/model/time_grid.h"
+#include "game/net/server/server.h"
 
 namespace rink::game {
 namespace {
@@ -101,6 +102,74 @@ TEST(KeyIntake, ForgetsOfOneWhoLeavesWhatIsOnItsWay) {
   EXPECT_EQ(keys.felt()[1], 1u);
   keys.enter(1, 0.0);
   EXPECT_EQ(keys.felt()[1], 0u) << "the next one's keys count from 0";
+}
+
+TEST(KeyIntake, MakesAnEventOfAPushAsOfAKey) {
+  KeyIntake keys(2, 0.0);
+  keys.enter(1, 0.0);
+  const auto event =
+      keys.accept_push(1, bytes({"\x00\xfe", 2}), {.simulated_s = 1.0, .wanted_s = 1.1});
+  EXPECT_EQ(event, (InputEvent{.time = next_on(key_grid, 1.1),
+                               .player = 1,
+                               .kind = InputKind::push,
+                               .push = {-127, 127}}));
+  EXPECT_EQ(keys.accept(1, true, bytes("a"), {.simulated_s = 1.0, .wanted_s = 1.05})->time,
+            event->time)
+      << "keys and pushes keep their order";
+  keys.feel_until(1.2);
+  EXPECT_EQ(keys.felt()[1], 2u);
+  EXPECT_EQ(keys.counters().pushes, 1u);
+}
+
+TEST(KeyIntake, CountsAPushThatCameTooLateAndFeelsItAtOnce) {
+  KeyIntake keys(1, 0.0);
+  EXPECT_EQ(keys.accept_push(0, bytes("~~"), {.simulated_s = 2.0, .wanted_s = 1.9})->time, 2.0);
+  EXPECT_EQ(keys.accept_push(0, bytes("~~"), {.simulated_s = 2.0, .wanted_s = 9.0})->time, 2.25);
+  EXPECT_EQ(keys.counters().late, 1u);
+}
+
+TEST(KeyIntake, RefusesWhatIsNoPush) {
+  KeyIntake keys(1, 0.0);
+  for (const std::string_view message : {"", "a", "aaa", "a\xff",
+                                         "\xff"
+                                         "a"})
+    EXPECT_FALSE(keys.accept_push(0, bytes(message), {})) << '"' << message << '"';
+  EXPECT_EQ(keys.counters().refused, 5u);
+  EXPECT_EQ(keys.counters().pushes, 5u);
+  keys.feel_until(1.0);
+  EXPECT_EQ(keys.felt()[0], 0u);
+}
+
+/// Neither takes of the other's allowance.
+TEST(KeyIntake, LimitsKeysAndPushesEachByABucketOfItsOwn) {
+  KeyIntake keys(1, match_key_limit_default);
+  const auto count = [&](bool is_push, double from_s) {
+    int felt = 0;
+    for (int k = 0; k < 1000; ++k) {
+      const KeyArrival arrival{.now_s = from_s + k * 1e-3};
+      felt += (is_push ? keys.accept_push(0, bytes("aa"), arrival)
+                       : keys.accept(0, true, bytes("a"), arrival))
+                  ? 1
+                  : 0;
+    }
+    return felt;
+  };
+  EXPECT_NEAR(count(false, 0.0), 240, 2) << "a second's worth of 120 at once, and 120 more in it";
+  EXPECT_FALSE(keys.counters().is_push_over_limit);
+  EXPECT_NEAR(count(true, 1.0), 480, 2) << "240 and 240";
+  EXPECT_TRUE(keys.counters().is_push_over_limit);
+  EXPECT_NEAR(static_cast<double>(keys.counters().over_limit), 2000.0 - 720.0, 4.0);
+  keys.feel_until(10.0);
+  EXPECT_EQ(keys.felt()[0], 2000u) << "nobody waits for what is not felt";
+}
+
+TEST(KeyIntake, EndsThePushOfOneWhoLeavesItsHand) {
+  KeyIntake keys(1, 0.0);
+  keys.accept_push(0, bytes("aa"), {.simulated_s = 1.0, .wanted_s = 1.0});
+  const auto events = keys.release(0, 1.5);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0], (InputEvent{.time = 1.5, .kind = InputKind::push}));
+  EXPECT_TRUE(keys.release(0, 2.0).empty());
 }
 
 TEST(KeyIntake, BeginsAnewWithNothingHeldAndAllAcknowledged) {

@@ -99,7 +99,7 @@ def seconds(stamp):
 
 
 def trajectory(reader, new_bits):
-    """rink-trajectory-3."""
+    """rink-trajectory-4."""
     bits = new_bits(reader.data[reader.at:])
     form, time, velocity, acceleration, drag = bits.number(2), 0.0, [0.0, 0.0], [0.0, 0.0], [-1.0, -1.0]
     is_driven = form == 3 and bits.number(1) == 1
@@ -147,8 +147,8 @@ def shape(reader, _):
     return kind_and_team + numbers
 
 
-CODECS = {"rink-trajectory-3": trajectory, "rink-input-2": held_keys, "rink-shape-1": shape}
-SHIPPED_CODECS = {"Rink": [("Trajectory", "rink-trajectory-3"), ("Input", "rink-input-2"), ("Shape", "rink-shape-1")]}
+CODECS = {"rink-trajectory-4": trajectory, "rink-input-2": held_keys, "rink-shape-1": shape}
+SHIPPED_CODECS = {"Rink": [("Trajectory", "rink-trajectory-4"), ("Input", "rink-input-2"), ("Shape", "rink-shape-1")]}
 
 
 # Residuals
@@ -203,6 +203,13 @@ def steps(led, former):
     return [round(value * 2048) if abs(value * 2048) < 2**40 else round(before * 2048) for value, before in zip(led, former)]
 
 
+def push(bits, thrust):
+    along = bits.number(2)
+    if along < 3:
+        return (0.0, thrust, -thrust)[along]
+    return struct.unpack("<f", struct.pack("<f", thrust * ((bits.number(8) - 127) / 127)))[0]
+
+
 def trajectory_residual(bits, former, shape, stamp, other):
     """Of a companion `other` has the former trajectory, the shape and the trajectory of the one it follows."""
     (thrust, mass), values = struct.unpack("<ff", shape[18:]), struct.unpack("<9d", former)
@@ -210,7 +217,7 @@ def trajectory_residual(bits, former, shape, stamp, other):
     if not bits.number(1):
         acceleration, drag, is_resting = (0.0, 0.0), (-1.0, -1.0), not bits.number(1)
         if not is_resting:
-            acceleration = [(0.0, thrust, -thrust)[bits.number(2)] for _ in "xy"]
+            acceleration = [push(bits, thrust) for _ in "xy"]
     late = 0 if is_resting or other else golomb(bits, 4)
     instant = (math.floor(seconds(stamp) * 1024) - late) / 1024
     if other:

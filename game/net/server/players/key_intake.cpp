@@ -1,5 +1,5 @@
-// Takes keys from the wire; one over its player's limit is acknowledged like any other, so that the
-// player does not wait for it.
+// Takes keys and pushes from the wire; one over its player's limit is acknowledged like any other,
+// so that the player does not wait for it.
 #include "game/net/server/players/key_intake.h"
 
 #include <algorithm>
@@ -17,14 +17,19 @@ constexpr double key_lead_max = 0.25;
 
 }  // namespace
 
-KeyIntake::KeyIntake(std::uint32_t player_count, double limit_per_s)
+KeyIntake::KeyIntake(std::uint32_t player_count, double limit_per_s, double push_limit_per_s)
     : limit_per_s_(limit_per_s),
-      hands_(player_count, Hand{.held = {}, .allowance = {limit_per_s, 0.0}}),
+      push_limit_per_s_(push_limit_per_s),
+      hands_(player_count, fresh_hand(0.0)),
       felt_(player_count) {}
+
+KeyIntake::Hand KeyIntake::fresh_hand(double now_s) const {
+  return {.allowance = {limit_per_s_, now_s}, .push_allowance = {push_limit_per_s_, now_s}};
+}
 
 void KeyIntake::enter(std::uint32_t player, double now_s) {
   assert(player < hands_.size());
-  hands_[player] = {.held = {}, .allowance = {limit_per_s_, now_s}};
+  hands_[player] = fresh_hand(now_s);
   felt_[player] = 0;
 }
 
@@ -45,21 +50,46 @@ std::optional<InputEvent> KeyIntake::accept(std::uint32_t player, bool is_down, 
     ++counters_.refused;
     return std::nullopt;
   }
+  const std::optional<double> time = admit(player, false, arrival);
+  if (!time) return std::nullopt;
+  hands_[player].held.set(*key, is_down);
+  return InputEvent{.time = *time,
+                    .player = player,
+                    .kind = is_down ? InputKind::key_down : InputKind::key_up,
+                    .key = *key};
+}
+
+std::optional<InputEvent> KeyIntake::accept_push(std::uint32_t player, rti::Bytes message,
+                                                 const KeyArrival& arrival) {
+  assert(player < hands_.size());
+  PushSteps steps;
+  if (!decode(message, steps)) {
+    refuse_push();
+    return std::nullopt;
+  }
+  ++counters_.received, ++counters_.pushes;
+  const std::optional<double> time = admit(player, true, arrival);
+  if (!time) return std::nullopt;
+  hands_[player].push = push_of(steps);
+  return InputEvent{
+      .time = *time, .player = player, .kind = InputKind::push, .push = hands_[player].push};
+}
+
+/// When a sound key change or push takes effect; nothing if it is only acknowledged.
+std::optional<double> KeyIntake::admit(std::uint32_t player, bool is_push,
+                                       const KeyArrival& arrival) {
   Hand& hand = hands_[player];
   const double time = stamp(hand, arrival);
   waiting_.push_back({.time = time, .player = player});
-  if (!hand.allowance.take(1.0, arrival.now_s)) {
+  if (!(is_push ? hand.push_allowance : hand.allowance).take(1.0, arrival.now_s)) {
     ++counters_.over_limit;
     counters_.player_over_limit = player;
+    counters_.is_push_over_limit = is_push;
     return std::nullopt;
   }
   if (!arrival.is_felt) return std::nullopt;
   waiting_.back().is_submitted = true;
-  hand.held.set(*key, is_down);
-  return InputEvent{.time = time,
-                    .player = player,
-                    .kind = is_down ? InputKind::key_down : InputKind::key_up,
-                    .key = *key};
+  return time;
 }
 
 double KeyIntake::stamp(Hand& hand, const KeyArrival& arrival) {
@@ -78,7 +108,9 @@ std::vector<InputEvent> KeyIntake::release(std::uint32_t player, double simulate
   for (const Key key : all_keys)
     if (hand.held.is_down(key))
       events.push_back({.time = time, .player = player, .kind = InputKind::key_up, .key = key});
-  hand.held = {};
+  if (hand.push != Push{})
+    events.push_back({.time = time, .player = player, .kind = InputKind::push});
+  hand.held = {}, hand.push = {};
   return events;
 }
 
@@ -117,7 +149,7 @@ void KeyIntake::feel_unsubmitted() {
 void KeyIntake::begin() {
   for (const Waiting& key : waiting_) ++felt_[key.player];
   waiting_.clear();
-  for (Hand& hand : hands_) hand.held = {}, hand.last_key_s = 0.0;
+  for (Hand& hand : hands_) hand.held = {}, hand.push = {}, hand.last_key_s = 0.0;
   record_.clear();
 }
 

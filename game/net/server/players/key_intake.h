@@ -1,5 +1,5 @@
-// Takes key changes from the wire into the game: they are stamped, limited, acknowledged once in
-// effect, and recorded.
+// Takes key changes and pushes from the wire into the game: they are stamped, limited, acknowledged
+// once in effect, and recorded.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,16 @@
 
 namespace rink::game {
 
+/// Pushes per second and player: one a frame of the fastest common screens. Clients send no more
+/// than 200.
+inline constexpr double push_limit_default = 240.0;
+
+/// Of key changes and pushes together.
 struct KeyCounters {
   std::uint64_t received = 0, applied = 0, refused = 0, over_limit = 0;
   std::uint32_t player_over_limit = 0;  ///< the sender of the last of them
+  bool is_push_over_limit = false;      ///< whether that was a push
+  std::uint64_t pushes = 0;             ///< of `received`
   std::uint64_t late = 0;               ///< of hosted matches: arrived after the instant for which
                                         ///< they were stamped, by more than 0.1 ms
 };
@@ -34,8 +41,9 @@ struct KeyArrival {
 /// events, and records them as they were queued.
 class KeyIntake {
  public:
-  /// `limit_per_s`: see ServerSettings::key_limit_per_s.
-  KeyIntake(std::uint32_t player_count, double limit_per_s);
+  /// `limit_per_s`, `push_limit_per_s`: see ServerSettings.
+  KeyIntake(std::uint32_t player_count, double limit_per_s,
+            double push_limit_per_s = push_limit_default);
 
   /// `player` takes the seat at `now_s` of the server's clock, without held or counted keys.
   void enter(std::uint32_t player, double now_s);
@@ -45,7 +53,13 @@ class KeyIntake {
   /// if the message is malformed, over the limit, or not to be applied.
   std::optional<InputEvent> accept(std::uint32_t player, bool is_down, rti::Bytes message,
                                    const KeyArrival& arrival);
-  /// Releases all keys of `player`, at the simulated instant [s] or after its last key.
+  /// As accept, of `player`'s push.
+  std::optional<InputEvent> accept_push(std::uint32_t player, rti::Bytes message,
+                                        const KeyArrival& arrival);
+  /// Counts a push to a game that takes none.
+  void refuse_push() { ++counters_.received, ++counters_.pushes, ++counters_.refused; }
+  /// Ends the push and releases all keys of `player`, at the simulated instant [s] or after its
+  /// last key.
   std::vector<InputEvent> release(std::uint32_t player, double simulated_s);
   /// The game was played up to `until` [s].
   void feel_until(double until);
@@ -66,9 +80,10 @@ class KeyIntake {
 
  private:
   struct Hand {
-    KeysHeld held;               ///< once all that was submitted is felt
-    double last_key_s = 0.0;     ///< of hosted matches: the simulated instant of the last one
-    rti::TokenBucket allowance;  ///< of key changes
+    KeysHeld held{};  ///< once all that was submitted is felt, as is the push
+    Push push{};
+    double last_key_s = 0.0;  ///< of hosted matches: the simulated instant of the last one
+    rti::TokenBucket allowance, push_allowance;
   };
   struct Waiting {
     double time;
@@ -76,9 +91,11 @@ class KeyIntake {
     bool is_submitted = false;  ///< else over the limit, or not to be felt
   };
 
+  Hand fresh_hand(double now_s) const;
   double stamp(Hand& hand, const KeyArrival& arrival);
+  std::optional<double> admit(std::uint32_t player, bool is_push, const KeyArrival& arrival);
 
-  double limit_per_s_;
+  double limit_per_s_, push_limit_per_s_;
   std::vector<Hand> hands_;          ///< by player
   std::vector<Waiting> waiting_;     ///< received, not yet felt
   std::vector<std::uint32_t> felt_;  ///< by player
