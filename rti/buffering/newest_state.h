@@ -12,10 +12,10 @@ namespace rink::rti {
 /// Two marks, so that a federate near one of them doesn't get whole states in turns with single
 /// updates.
 struct NewestStateSettings {
-  std::size_t hold_above = 256 * 1024;  ///< a federate with more than this unread is held back
-                                        ///< [bytes]; below the transport's own limit, which closes
+  std::size_t hold_above = 64 * 1024;  ///< a federate with more than this unread is held back
+                                       ///< [bytes]; below the transport's own limit, which closes
   std::size_t resume_below =
-      32 * 1024;  ///< and until no more than this waits [bytes]; at most `hold_above`
+      8 * 1024;  ///< and until no more than this waits [bytes]; at most `hold_above`
 };
 
 /// A queue to a destination is thus at most `hold_above`, one flush and what is never held back,

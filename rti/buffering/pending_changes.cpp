@@ -2,18 +2,27 @@
 #include "rti/buffering/pending_changes.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace rink::rti {
 
 void PendingChanges::add(std::span<const UpdateRun> runs) {
+  if (runs.empty()) return;
+  ++flush_number_;
   for (const UpdateRun& run : runs) {
     supersede(run);
-    Bitmap& objects = changes_[place_of(run.owner, run.attributes, run.stamp)].objects;
+    Change& change = place_of({.flush = flush_number_,
+                               .owner = run.owner,
+                               .attributes = run.attributes,
+                               .stamp = run.stamp,
+                               .objects = {}});
     for (std::size_t i = run.first_word; i <= run.last_word; ++i)
-      objects.insert_word(i, run.members.word(i));
+      change.objects.insert_word(i, run.members.word(i));
+    change.first_word = std::min(change.first_word, run.first_word);
+    change.end_word = std::max(change.end_word, run.last_word + 1);
   }
+  // Where everything changes at every flush, all but the newest are empty now.
+  keep_if([](const Change& change) { return change.first_word < change.end_word; });
 }
 
 /// Takes the run's attributes of its objects out of what was added before; other attributes that
@@ -24,37 +33,52 @@ void PendingChanges::supersede(const UpdateRun& run) {
     if (changes_[k].owner != run.owner || (changes_[k].attributes & run.attributes).is_empty())
       continue;
     const AttributeSet rest = changes_[k].attributes.without(run.attributes);
-    for (std::size_t i = run.first_word; i <= run.last_word; ++i) {
+    const std::size_t end = std::min(run.last_word + 1, changes_[k].end_word);
+    for (std::size_t i = std::max(run.first_word, changes_[k].first_word); i < end; ++i) {
       const std::uint64_t both = changes_[k].objects.word(i) & run.members.word(i);
       if (both == 0) continue;
       changes_[k].objects.erase_word(i, both);
       if (rest.is_empty()) continue;
-      const Stamp stamp = changes_[k].stamp;  // a copy: a new place may move all of them
-      const std::size_t place = place_of(run.owner, rest, stamp);
-      changes_[place].objects.insert_word(i, both);
+      Change like{.flush = changes_[k].flush,
+                  .owner = run.owner,
+                  .attributes = rest,
+                  .stamp = changes_[k].stamp,
+                  .objects = {}};  // a copy: a new place may move all of them
+      Change& left = place_of(like);
+      left.objects.insert_word(i, both);
+      left.first_word = std::min(left.first_word, i);
+      left.end_word = std::max(left.end_word, i + 1);
     }
+    Change& cut = changes_[k];
+    while (cut.first_word < cut.end_word && cut.objects.word(cut.first_word) == 0) ++cut.first_word;
+    while (cut.first_word < cut.end_word && cut.objects.word(cut.end_word - 1) == 0) --cut.end_word;
   }
 }
 
 /// The change with these properties, which is empty if there was none.
-std::size_t PendingChanges::place_of(std::uint32_t owner, AttributeSet attributes,
-                                     const Stamp& stamp) {
+PendingChanges::Change& PendingChanges::place_of(const Change& like) {
   for (std::size_t k = size_; k > 0; --k) {
-    const Change& change = changes_[k - 1];
-    if (change.owner == owner && change.attributes == attributes && change.stamp == stamp)
-      return k - 1;
+    Change& change = changes_[k - 1];
+    if (change.flush == like.flush && change.owner == like.owner &&
+        change.attributes == like.attributes && change.stamp == like.stamp)
+      return change;
   }
   if (size_ == changes_.size()) changes_.emplace_back();
-  Change& change = changes_[size_];
-  change.owner = owner;
-  change.attributes = attributes;
-  change.stamp = stamp;
-  return size_++;
+  Change& change = changes_[size_++];
+  change.flush = like.flush;
+  change.owner = like.owner;
+  change.attributes = like.attributes;
+  change.stamp = like.stamp;
+  change.first_word = static_cast<std::size_t>(-1);
+  change.end_word = 0;
+  return change;
 }
 
-std::span<const UpdateRun> PendingChanges::seal(const ObjectTable& objects) {
-  order_.resize(size_);
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
+std::span<const UpdateRun> PendingChanges::seal(const ObjectTable& objects, std::uint64_t since) {
+  runs_.clear();
+  order_.clear();
+  for (std::size_t k = 0; k < size_; ++k)
+    if (changes_[k].flush > since) order_.push_back(k);
   std::ranges::sort(order_, [this](std::size_t a, std::size_t b) {
     return std::pair(changes_[a].stamp.time, a) < std::pair(changes_[b].stamp.time, b);
   });
@@ -79,10 +103,19 @@ std::span<const UpdateRun> PendingChanges::seal(const ObjectTable& objects) {
   return runs_.runs();
 }
 
-void PendingChanges::clear() {
-  for (std::size_t k = 0; k < size_; ++k) changes_[k].objects.clear();
-  size_ = 0;
-  runs_.clear();
+void PendingChanges::forget(std::uint64_t until) {
+  keep_if([until](const Change& change) { return change.flush > until; });
+}
+
+/// Keeps the order of the others, and the memory of all.
+template <class IsKept>
+void PendingChanges::keep_if(IsKept is_kept) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < size_; ++k) {
+    if (!is_kept(changes_[k])) changes_[k].objects.clear();
+    else if (const std::size_t to = kept++; to != k) std::swap(changes_[to], changes_[k]);
+  }
+  size_ = kept;
 }
 
 }  // namespace rink::rti

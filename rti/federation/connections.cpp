@@ -31,13 +31,20 @@ void Connections::forget_words(ConnectionId id) {
     std::erase_if(*words, [id](const PendingClose& each) { return each.connection == id; });
 }
 
+/// However late it is called, the time since then counts as `lost_after_s` at most: what was sent
+/// meanwhile waits in the sockets, and a federate is lost by its own silence alone.
 void Connections::advance_clock() {
+  const double lost_after_s = basis_.settings.timeouts.lost_after_s;
+  const double unseen_s =
+      std::max(0.0, basis_.now - advanced_s_.value_or(basis_.now) - lost_after_s);
+  advanced_s_ = basis_.now;
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     FederationConnection& connection = connections_[id];
     if (connection.phase == Phase::unknown) continue;
     if (connection.has_spoken) connection.last_received = basis_.now;
+    else connection.last_received += unseen_s;
     connection.has_spoken = false;
-    if (basis_.now - connection.last_received > basis_.settings.timeouts.lost_after_s)
+    if (basis_.now - connection.last_received > lost_after_s)
       expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
   }
 }

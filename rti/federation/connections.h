@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -71,6 +72,7 @@ class Connections {
   void send_reports(Outlet& outlet);
 
   FederationBasis basis_;
+  std::optional<double> advanced_s_;  ///< when `advance_clock` was called last
   const Membership& membership_;
   const FederationCensus& census_;
   FrameHandler& handler_;

@@ -1,13 +1,16 @@
 // How long the RTI and this federate have been silent.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 
 #include "rti/types.h"
 
 namespace rink::rti {
 
-/// Follows the caller's clock; an event between two advances counts as of the later.
+/// Follows the caller's clock; an event between two advances counts as of the later. However late
+/// the caller advances it, the time since then counts as `lost_after_s` at most: nobody has looked
+/// meanwhile whether the RTI was silent.
 class LinkWatch {
  public:
   explicit LinkWatch(const Timeouts& timeouts) : timeouts_(timeouts) {}
@@ -17,20 +20,23 @@ class LinkWatch {
   void sent() { has_sent_ = true; }
   /// `is_sending`: bytes wait to be sent.
   void advance(double now, bool is_sending) {
+    if (!has_clock_) now_ = last_sent_ = now;
+    silent_s_ = has_received_ || !has_clock_
+                    ? 0.0
+                    : silent_s_ + std::min(now - now_, timeouts_.lost_after_s);
     now_ = now;
-    if (!has_clock_) last_received_ = last_sent_ = now;
     has_clock_ = true;
-    if (has_received_) last_received_ = now;
     if (has_sent_ || is_sending) last_sent_ = now;
     has_received_ = has_sent_ = false;
   }
-  bool is_rti_lost() const { return now_ - last_received_ > timeouts_.lost_after_s; }
+  bool is_rti_lost() const { return silent_s_ > timeouts_.lost_after_s; }
   bool is_heartbeat_due() const { return now_ - last_sent_ >= timeouts_.heartbeat_s; }
   void beat() { last_sent_ = now_; }
 
  private:
   Timeouts timeouts_;
-  double now_ = 0.0, last_received_ = 0.0, last_sent_ = 0.0;
+  double now_ = 0.0, last_sent_ = 0.0;
+  double silent_s_ = 0.0;  ///< for how long nothing has been received
   bool has_clock_ = false, has_received_ = false, has_sent_ = false;
 };
 

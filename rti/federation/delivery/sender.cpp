@@ -33,10 +33,9 @@ void Sender::flush(Outlet& outlet) {
   std::deque<UpdateRates::Group>& groups = uses_.rates.groups();
   for (std::uint32_t k = 0; limited > 0 && k < groups.size(); ++k)
     if (groups[k].is_due && groups[k].federates > 0)
-      flush_group(k, groups[k].pending.seal(basis_.objects), groups[k].keyframes, outlet);
+      flush_group(k, uses_.rates.due_runs(k, basis_.objects), groups[k].keyframes, outlet);
   if (limited > 0) flush_between_turns(runs, outlet);
-  for (std::uint32_t k = 0; k < groups.size(); ++k)
-    if (groups[k].is_due) uses_.rates.end_turn(k);
+  uses_.rates.end_turns();
   uses_.buffering.clear();
 }
 

@@ -23,8 +23,7 @@ void UpdateRates::set_rate(std::uint32_t federate, UpdateRate rate) {
   Federate& changed = federates_[federate];
   if (changed.group != every_match) {
     --limited_;
-    Group& former = groups_[changed.group];
-    if (--former.federates == 0) former.pending.clear();
+    if (--groups_[changed.group].federates == 0) forget_received();
   }
   changed.group = every_match;
   changed.sent.clear();
@@ -36,7 +35,8 @@ void UpdateRates::set_rate(std::uint32_t federate, UpdateRate rate) {
     if (groups_[k].rate == rate &&
         (changed.group == every_match || groups_[k].federates < groups_[changed.group].federates))
       changed.group = k;
-  ++groups_[changed.group].federates;
+  Group& joined = groups_[changed.group];
+  if (joined.federates++ == 0) joined.position = pending_.flush_number();
   ++limited_;
 }
 
@@ -84,8 +84,7 @@ void UpdateRates::begin_match() {
 }
 
 void UpdateRates::add(std::span<const UpdateRun> runs) {
-  for (Group& each : groups_)
-    if (each.federates > 0) each.pending.add(runs);
+  if (limited_ > 0) pending_.add(runs);
   list_prompts(runs);
 }
 
@@ -126,10 +125,28 @@ ObjectSlot UpdateRates::sent_before(std::uint32_t federate, const UpdateRun& run
   return sent.includes(run.attributes) ? watcher.object : no_object;
 }
 
-void UpdateRates::end_turn(std::uint32_t group) {
-  assert(group < groups_.size());
-  groups_[group].is_due = false;
-  groups_[group].pending.clear();
+std::span<const UpdateRun> UpdateRates::due_runs(std::uint32_t group, const ObjectTable& objects) {
+  assert(group < groups_.size() && groups_[group].federates > 0);
+  return pending_.seal(objects, groups_[group].position);
+}
+
+void UpdateRates::end_turns() {
+  bool is_any = false;
+  for (Group& each : groups_) {
+    if (!each.is_due) continue;
+    is_any = true;
+    each.is_due = false;
+    each.position = pending_.flush_number();
+  }
+  if (is_any) forget_received();
+}
+
+/// What the group that is furthest back has received, all have.
+void UpdateRates::forget_received() {
+  std::uint64_t received = pending_.flush_number();
+  for (const Group& each : groups_)
+    if (each.federates > 0) received = std::min(received, each.position);
+  pending_.forget(received);
 }
 
 }  // namespace rink::rti

@@ -18,10 +18,10 @@
 namespace rink::rti {
 
 /// Federates of one rate are spread evenly over groups of different phases; those of a group
-/// receive the same updates, encoded once.
+/// receive the same updates, encoded once. What changed is kept once for all groups.
 class UpdateRates {
  public:
-  /// Phases of one rate, at most: each keeps and encodes what changed.
+  /// Phases of one rate, at most: each encodes what changed since its last turn.
   static constexpr std::uint32_t phase_max = 16;
   static constexpr std::uint32_t every_match = 0xffffffffu;  ///< in place of a group
 
@@ -32,7 +32,7 @@ class UpdateRates {
     std::uint64_t turns = 0;      ///< that it has had
     std::uint64_t keyframes = 0;  ///< flushes with periodic state (rti/baselines)
     bool is_due = false;
-    PendingChanges pending;
+    std::uint64_t position = 0;  ///< flush of `PendingChanges` up to which it has received all
   };
   /// An update in the runs of a flush that a federate receives whether or not it is its turn.
   struct Prompt {
@@ -62,8 +62,10 @@ class UpdateRates {
   std::deque<Group>& groups() { return groups_; }
 
   void begin_match();
-  /// Adds a flush's updates to what each group has to be sent.
+  /// Adds a flush's updates to what groups have to be sent.
   void add(std::span<const UpdateRun> runs);
+  /// What the group has to be sent; valid until the next call.
+  std::span<const UpdateRun> due_runs(std::uint32_t group, const ObjectTable& objects);
   /// The updates of the flush at hand that federates between two turns receive, by federate.
   std::span<const Prompt> prompts() const { return prompts_; }
   /// The federate was sent `attributes` of its object under `stamp` before its turn.
@@ -72,8 +74,8 @@ class UpdateRates {
   ObjectSlot sent_before(std::uint32_t federate, const UpdateRun& run) const;
   /// The federate has had its turn.
   void note_turn(std::uint32_t federate) { federates_[federate].sent.clear(); }
-  /// All of the group have.
-  void end_turn(std::uint32_t group);
+  /// All of the groups that were due have.
+  void end_turns();
 
  private:
   struct Sent {
@@ -87,10 +89,12 @@ class UpdateRates {
     std::vector<Sent> sent;  ///< of the object since the last turn
   };
   void add_groups(UpdateRate rate);
+  void forget_received();
   void list_prompts(std::span<const UpdateRun> runs);
 
   std::vector<Federate> federates_;  ///< by slot
   std::deque<Group> groups_;
+  PendingChanges pending_;  ///< of all groups with federates
   struct Watcher {
     std::uint32_t federate = no_federate;
     ObjectHandle object;  ///< since a slot may have another one later

@@ -24,7 +24,7 @@ constexpr std::size_t events_per_poll =
 constexpr std::size_t accepted_per_event = 64;
 /// Limit of a peer's unsent bytes in the kernel [bytes]. Its own limit grows to megabytes for a
 /// peer that does not read, where newer state can no longer replace them.
-constexpr int unsent_max = 256 * 1024;
+constexpr int unsent_max = 64 * 1024;
 constexpr std::uint64_t pause_mark = ~0ull;
 constexpr std::size_t counters_kept = 1024;  ///< of closed connections
 

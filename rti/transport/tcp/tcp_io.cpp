@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t tcp_segment_size =
     1448;                              ///< payload of an Ethernet frame with TCP time stamps
 constexpr std::size_t part_max = 256;  ///< of one write; more are taken in turns
+constexpr std::size_t fair_read_min = 8 * 1024;  ///< bytes that a peer's turn to be read takes
 constexpr std::size_t cut_off_min = 512 * 1024;  ///< sent bytes of a queue, before they are cut off
 
 }  // namespace
@@ -30,8 +31,11 @@ CloseReason TcpTransport::reason_of(int error) {
 
 void TcpTransport::read(Peer& peer) {
   assert(peer.is_open && !peer.is_leaving && listener_ != nullptr);
-  const ssize_t size =
-      ::recv(peer.file.number(), read_buffer_.data(), read_buffer_.size(), MSG_DONTWAIT);
+  // Peers are read in turns. If each had as much read as its socket holds, the last of 5,000 who
+  // have fallen behind would wait for seconds, and take its RTI for silent.
+  const std::size_t fair = std::max(fair_read_min, settings_.bytes_per_poll / (open_count_ + 1));
+  const ssize_t size = ::recv(peer.file.number(), read_buffer_.data(),
+                              std::min(fair, read_buffer_.size()), MSG_DONTWAIT);
   if (size == 0) return end(peer, CloseReason::closed_by_peer, "closed by peer");
   if (size < 0) {
     if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return;

@@ -45,7 +45,7 @@ TEST(UpdateRates, TurnsComeEvenlyAndNeverDrift) {
         since[k] = 0;
         ASSERT_NEAR(turns[k], match * share, 1.0);
       }
-      for (std::uint32_t k = 0; k < rates.groups().size(); ++k) rates.end_turn(k);
+      rates.end_turns();
       if (rate.matches <= UpdateRates::phase_max) {
         ASSERT_NEAR(due, federates * share, 1e-9) << "each match has its part";
       }

@@ -152,5 +152,29 @@ TEST(Expulsion, FederatesOfVersion8WhichKnowsNoHostMessagesAreRefused) {
   EXPECT_EQ(heard.refusal, Refusal::wrong_version);
 }
 
+/// Neither side takes its own stall for the other's silence, and both notice who is really silent.
+TEST(Expulsion, AStallIsNotTheOthersSilence) {
+  Recorder heard;
+  Ambassador stalled(harbour(), heard);
+  stalled.join("rink", "stalled", "tester");
+  stalled.advance_clock(100.0);
+  stalled.advance_clock(130.0);
+  EXPECT_EQ(heard.lost, "");
+  stalled.advance_clock(130.25);
+  EXPECT_NE(heard.lost, "");
+
+  Bare bare;
+  bare.enter(1, "talker");
+  bare.enter(2, "sleeper");
+  bare.execution.advance_clock(1.0);
+  bare.execution.advance_clock(31.0);
+  EXPECT_EQ(bare.execution.federate_count(), 3u);
+  for (const ConnectionId each : {0u, 1u})
+    bare.execution.receive(each, frame_of(HeartbeatMessage{}));
+  bare.execution.advance_clock(31.25);
+  EXPECT_EQ(bare.execution.federate_count(), 2u);
+  EXPECT_EQ(bare.drops(Violation::silent), 1u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing
