@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <tuple>
 #include <utility>
 
 #include "game/view/window/glfw.h"
@@ -48,23 +46,27 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
   return count > 0 ? monitors[0] : nullptr;
 }
 
-/// The left stick of gamepad `number`, right and up; nothing if there is none. A joystick that GLFW
-/// does not know as a gamepad is used by its first two axes.
-std::optional<std::pair<double, double>> stick_of(int number) {
-  if (number < 0 || !glfwJoystickPresent(number)) return std::nullopt;
-  const auto checked = [](float right, float down) -> std::optional<std::pair<double, double>> {
-    const auto within = [](float value) {
-      return std::isfinite(value) ? std::clamp(static_cast<double>(value), -1.0, 1.0) : 0.0;
-    };
-    return std::pair(within(right), -within(down));
-  };
+struct Stick {
+  bool is_there = false;
+  double right = 0.0, up = 0.0;  ///< -1 to 1
+};
+
+double within_rim(float value) {
+  return std::isfinite(value) ? std::clamp(static_cast<double>(value), -1.0, 1.0) : 0.0;
+}
+
+/// The left stick of gamepad `number`, if it is there. A joystick that GLFW does not know as a
+/// gamepad is used by its first two axes.
+Stick stick_of(int number) {
+  if (number < 0 || !glfwJoystickPresent(number)) return {};
   GLFWgamepadstate state;
   if (glfwJoystickIsGamepad(number) && glfwGetGamepadState(number, &state))
-    return checked(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
+    return {true, within_rim(state.axes[GLFW_GAMEPAD_AXIS_LEFT_X]),
+            -within_rim(state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y])};
   int count = 0;
   const float* axes = glfwGetJoystickAxes(number, &count);
-  if (axes == nullptr || count < 2) return std::nullopt;
-  return checked(axes[0], axes[1]);
+  if (axes == nullptr || count < 2) return {};
+  return {true, within_rim(axes[0]), -within_rim(axes[1])};
 }
 
 }  // namespace
@@ -131,19 +133,20 @@ void Window::listen() {
 /// GLFW tells of gamepads only who asks: the first with a stick is used until it is gone.
 void Window::listen_to_gamepad() {
   using Kind = WindowEvent::Kind;
-  std::optional<std::pair<double, double>> stick = stick_of(gamepad_);
-  if (!stick && gamepad_ >= 0) {
+  Stick stick = stick_of(gamepad_);
+  if (!stick.is_there && gamepad_ >= 0) {
     gamepad_ = -1;
     events_.push_back({.kind = Kind::gamepad, .is_down = false});
   }
-  for (int number = GLFW_JOYSTICK_1; gamepad_ < 0 && number <= GLFW_JOYSTICK_LAST; ++number)
-    if ((stick = stick_of(number))) {
-      gamepad_ = number;
-      stick_x_ = stick_y_ = 0.0;
-      events_.push_back({.kind = Kind::gamepad, .is_down = true});
-    }
-  if (!stick || *stick == std::pair(stick_x_, stick_y_)) return;
-  std::tie(stick_x_, stick_y_) = *stick;
+  for (int number = GLFW_JOYSTICK_1; gamepad_ < 0 && number <= GLFW_JOYSTICK_LAST; ++number) {
+    stick = stick_of(number);
+    if (!stick.is_there) continue;
+    gamepad_ = number;
+    stick_x_ = stick_y_ = 0.0;
+    events_.push_back({.kind = Kind::gamepad, .is_down = true});
+  }
+  if (!stick.is_there || (stick.right == stick_x_ && stick.up == stick_y_)) return;
+  stick_x_ = stick.right, stick_y_ = stick.up;
   events_.push_back({.kind = Kind::stick, .x = stick_x_, .y = stick_y_});
 }
 
