@@ -103,6 +103,13 @@ std::span<const UpdateRun> PendingChanges::seal(const ObjectTable& objects, std:
   return runs_.runs();
 }
 
+void PendingChanges::list_objects(std::uint64_t since, Bitmap& objects) const {
+  for (std::size_t k = 0; k < size_; ++k)
+    if (changes_[k].flush > since)
+      for (std::size_t i = changes_[k].first_word; i < changes_[k].end_word; ++i)
+        objects.insert_word(i, changes_[k].objects.word(i));
+}
+
 void PendingChanges::forget(std::uint64_t until) {
   keep_if([until](const Change& change) { return change.flush > until; });
 }

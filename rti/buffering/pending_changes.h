@@ -26,6 +26,8 @@ class PendingChanges {
   /// Whatever was added after the flush `since`, oldest stamps first; values as `objects` has them
   /// now. Valid until the next call.
   std::span<const UpdateRun> seal(const ObjectTable& objects, std::uint64_t since);
+  /// Adds the objects of the same changes to `objects`.
+  void list_objects(std::uint64_t since, Bitmap& objects) const;
   /// Forgets what was last updated by the flush `until` or before it: all federates have it.
   void forget(std::uint64_t until);
 

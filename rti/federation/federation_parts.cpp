@@ -84,12 +84,18 @@ void FederationParts::flush(Outlet& outlet) {
   connections.close_pending(outlet);
 }
 
+/// The federate is sent the objects that it has missed in full, and no others: a server that is
+/// late tells all its clients less often, and has no time to send everything to everybody.
 void FederationParts::set_update_rate(std::uint32_t slot, UpdateRate rate) {
+  Bitmap missed;
+  rates.list_missed(slot, missed);
   rates.set_rate(slot, rate);
   FederateInterest& interest = ground.distribution->of(slot);
-  for (std::size_t i = 0; i < interest.in_scope.word_count(); ++i)
-    interest.needs_full_state.insert_word(i, interest.in_scope.word(i));
-  interest.needs_any_full_state = true;
+  for (std::size_t i = 0; i < missed.word_count(); ++i) {
+    const std::uint64_t in_scope = missed.word(i) & interest.in_scope.word(i);
+    interest.needs_full_state.insert_word(i, in_scope);
+    interest.needs_any_full_state |= in_scope != 0;
+  }
   interest.holds_former.clear();
   if (interest.turns) interest.turns->number = 0;
 }

@@ -40,6 +40,11 @@ void UpdateRates::set_rate(std::uint32_t federate, UpdateRate rate) {
   ++limited_;
 }
 
+void UpdateRates::list_missed(std::uint32_t federate, Bitmap& objects) const {
+  if (const std::uint32_t group = group_of(federate); group != every_match)
+    pending_.list_objects(groups_[group].position, objects);
+}
+
 /// Groups of rates that no federate has any more are used again.
 void UpdateRates::add_groups(UpdateRate rate) {
   const auto is_unused = [this](UpdateRate of) {

@@ -44,9 +44,11 @@ class UpdateRates {
   /// A federate in a free slot, which is updated at every match.
   void joined(std::uint32_t federate);
   void left(std::uint32_t federate);
-  /// Moves the federate to the group of this rate with the fewest others. It must be sent all in
-  /// its scope anew.
+  /// Moves the federate to the group of this rate with the fewest others. What
+  /// it missed before it must be sent otherwise.
   void set_rate(std::uint32_t federate, UpdateRate rate);
+  /// Adds the objects that were updated since the federate's last turn to `objects`.
+  void list_missed(std::uint32_t federate, Bitmap& objects) const;
   /// The federate receives updates of the object with any of `attributes` at once; one object each,
   /// which a further call replaces.
   void send_at_once(std::uint32_t federate, ObjectSlot slot, ObjectHandle object,

@@ -16,7 +16,7 @@ class OutputRates {
 
   /// From now on every player's client is sent one of `divisor` updates of the rate that was asked
   /// for; `divisor` is at least 1 (asserted). Clients that come later follow by `add_newcomers`. A
-  /// client is sent all in its scope anew when its rate changes.
+  /// client is sent what it has missed when its rate changes.
   void set_divisor(const Server& server, rti::FederationExecution& federation,
                    std::uint32_t divisor);
   /// After each tick: clients that were given a bat in it.
