@@ -108,13 +108,19 @@ void read_header(const nlohmann::json& line, ServerTrace& trace, const TraceRead
 }
 
 InputEvent read_key(const nlohmann::json& line, const TraceReader& reader) {
-  const InputEvent event{.time = line.at(0),
-                         .player = line.at(1),
-                         .kind = static_cast<InputKind>(line.at(2).get<std::uint8_t>()),
-                         .key = static_cast<Key>(line.at(3).get<std::uint8_t>())};
-  if (!(event.time >= 0.0) || event.kind > InputKind::leave ||
-      std::find(all_keys.begin(), all_keys.end(), event.key) == all_keys.end())
-    reader.refuse("keys as time, player, kind and key");
+  InputEvent event{.time = line.at(0),
+                   .player = line.at(1),
+                   .kind = static_cast<InputKind>(line.at(2).get<std::uint8_t>())};
+  bool is_sound = event.time >= 0.0 && event.kind <= InputKind::push;
+  if (event.kind == InputKind::push) {
+    const int x = line.at(3), y = line.at(4);
+    is_sound = is_sound && std::abs(x) <= Push::whole && std::abs(y) <= Push::whole;
+    event.push = {static_cast<std::int8_t>(x), static_cast<std::int8_t>(y)};
+  } else {
+    event.key = static_cast<Key>(line.at(3).get<std::uint8_t>());
+    is_sound = is_sound && std::ranges::find(all_keys, event.key) != std::end(all_keys);
+  }
+  if (!is_sound) reader.refuse("keys as time, player, kind and key or push");
   return event;
 }
 
@@ -151,9 +157,12 @@ void write_trace(const std::string& file, const ServerTrace& trace) {
   const auto us = [](double seconds) { return std::round(1e9 * seconds) * 1e-3; };
   for (const ServerTrace::Tick& tick : trace.ticks)
     ticks.push_back({tick.simulated_s, us(tick.physics_s), us(tick.filter_s), us(tick.send_s)});
-  for (const InputEvent& event : trace.keys)
-    keys.push_back(
-        {event.time, event.player, static_cast<int>(event.kind), static_cast<int>(event.key)});
+  for (const InputEvent& event : trace.keys) {
+    const int kind = static_cast<int>(event.kind);
+    if (event.kind == InputKind::push)
+      keys.push_back({event.time, event.player, kind, event.push.x, event.push.y});
+    else keys.push_back({event.time, event.player, kind, static_cast<int>(event.key)});
+  }
   for (const ServerTrace::Naming& naming : trace.objects)
     objects.push_back({naming.object, naming.body});
   writer.line({{"ticks_us", ticks}});

@@ -12,6 +12,9 @@
 
 namespace rink::rti {
 
+/// The longest value that is kept, coded [bytes].
+inline constexpr std::size_t repeated_value_max = 256;
+
 /// Many objects of a class have equal values: of a thousand equal pucks one brings its shape.
 class EntryValues {
  public:
@@ -24,8 +27,9 @@ class EntryValues {
     if (object_class >= by_class_.size()) by_class_.resize(object_class + std::size_t{1});
     std::vector<Value>& values = by_class_[object_class];
     if (attribute.value >= values.size()) values.resize(attribute.value + std::size_t{1});
-    values[attribute.value].is_there = true;
-    values[attribute.value].bytes.assign(value.begin(), value.end());
+    Value& noted = values[attribute.value];
+    noted.is_there = value.size() <= repeated_value_max;
+    if (noted.is_there) noted.bytes.assign(value.begin(), value.end());
   }
   bool has(std::uint16_t object_class, AttributeHandle attribute) const {
     return find(object_class, attribute) != nullptr;

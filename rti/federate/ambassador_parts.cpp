@@ -85,6 +85,10 @@ bool AmbassadorParts::handle_message(Reader& reader, ReadContext& context) {
   reader.number(number);
   const auto kind = static_cast<MessageKind>(number);
   if (is_postponing(context) && is_receive_ordered(kind)) return postpone(reader, kind, context);
+  // A callback to a message before this one may have asked to advance: what was put off comes
+  // first.
+  if (!ground.postponed.is_empty() && !context.is_released && !release_postponed()) return false;
+  if (ground.phase.has_ended()) return true;
   return dispatch(kind, reader, context);
 }
 
@@ -99,6 +103,7 @@ bool AmbassadorParts::release_postponed() {
   const std::vector<std::byte> messages = ground.postponed.take();
   Reader reader(messages);
   ReadContext context;
+  context.is_released = true;
   while (!reader.is_at_end() && ground.phase.is_joined())
     if (!handle_message(reader, context)) return false;
   return true;

@@ -11,6 +11,7 @@ namespace rink::rti {
 struct ReadContext {
   std::optional<Stamp> stamp;         ///< of the updates that follow, once one was received
   const TimedStamp* timed = nullptr;  ///< of a message in time-stamp order, else null
+  bool is_released = false;           ///< the message was put off; scope was changed at once
 };
 
 }  // namespace rink::rti

@@ -64,8 +64,7 @@ void DataTypes::check() {
            path(node) + " is the standard's, whose size " +
                (standard->size ? "is " + std::to_string(8 * *standard->size) + " bits" : "varies"));
     if (std::string_view(node.name()) == "variantRecordData") check_variants(node);
-    if (std::string_view(node.name()) == "enumeratedData")
-      check_enumerators(modules_, node, size.value_or(0));
+    if (std::string_view(node.name()) == "enumeratedData") check_enumerators(modules_, node, size);
   }
 }
 
@@ -103,6 +102,10 @@ DataTypes::Size DataTypes::size_of(const std::string& type, const Node& user) {
   }
   if (!being_sized_.insert(type).second)
     fail(declared->second, "data type '" + type + "' contains itself");
+  constexpr std::size_t depth_max = 64;
+  if (being_sized_.size() > depth_max)
+    fail(declared->second,
+         "data type '" + type + "' is within more than " + std::to_string(depth_max) + " others");
   const Node node = declared->second;
   const std::string_view kind = node.name();
   Size size;

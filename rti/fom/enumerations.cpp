@@ -82,7 +82,12 @@ std::vector<ListEntry> entries_of(const FomModules& modules, const XmlNode& node
   }
 }
 
-void check_enumerators(FomModules& modules, const XmlNode& enumeration, std::uint32_t size) {
+void check_enumerators(FomModules& modules, const XmlNode& enumeration,
+                       std::optional<std::uint32_t> size) {
+  if (!size || *size == 0)
+    modules.fail(enumeration, FomModules::path(enumeration) +
+                                  " has a representation without a size; allowed are numbers, "
+                                  "such as HLAinteger32BE");
   std::set<std::string> names;
   std::map<std::int64_t, XmlNode> taken;
   for (const XmlNode& enumerator : enumeration.children("enumerator")) {
@@ -91,7 +96,7 @@ void check_enumerators(FomModules& modules, const XmlNode& enumeration, std::uin
                                    FomModules::path(enumeration) + " is declared twice");
     for (const XmlNode& value : enumerator.children("value"))
       for (const ListEntry& entry : entries_of(modules, value, value.text().get())) {
-        const Values values = values_of(modules, value, entry, size);
+        const Values values = values_of(modules, value, entry, *size);
         // The first value of a range stands for it: a range may hold all that a word has.
         const auto [other, is_new] = taken.emplace(values.first, enumerator);
         if (!is_new && other->second != enumerator)

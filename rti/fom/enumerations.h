@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -24,7 +25,8 @@ std::vector<ListEntry> entries_of(const FomModules& modules, const pugi::xml_nod
 /// Checks an `enumeratedData` whose representation takes `size` bytes: names are unique, and values
 /// are whole numbers that fit it, signed or not; a range ascends. A value that two enumerators have
 /// is a warning, for published models have such.
-void check_enumerators(FomModules& modules, const pugi::xml_node& enumeration, std::uint32_t size);
+void check_enumerators(FomModules& modules, const pugi::xml_node& enumeration,
+                       std::optional<std::uint32_t> size);
 
 /// Checks the alternatives of a `variantRecordData` against the enumerators of its discriminant, in
 /// their order: each is named at most once, ranges ascend, HLAother comes alone.

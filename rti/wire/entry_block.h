@@ -16,7 +16,7 @@ namespace rink::rti {
 
 enum class EntryForm : std::uint8_t {
   known,       ///< the values follow
-  discovered,  ///< the same; the federate did not know the object: it has its default name
+  discovered,  ///< the same; the federate did not know the object, whose name is the default one
   held,        ///< the federate holds the values already: nothing follows
 };
 inline constexpr unsigned entry_form_bits = 2;

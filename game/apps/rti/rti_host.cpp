@@ -21,10 +21,15 @@ rti::DirectorySettings settings_of(const RtiOptions& options) {
   return settings;
 }
 
-/// Names are not trusted, so bytes that control a terminal are replaced.
+/// Names are not trusted, so what controls a terminal is replaced: also U+0080 to U+009F, which are
+/// C2 80 to C2 9F in UTF-8.
 std::string shown(std::string name) {
-  for (char& letter : name)
-    if (static_cast<unsigned char>(letter) < 32 || letter == 127) letter = '?';
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto at = [&](std::size_t k) { return static_cast<unsigned char>(name[k]); };
+    const bool is_c1 = at(i) == 0xc2 && i + 1 < name.size() && at(i + 1) < 0xa0;
+    if (at(i) < 32 || at(i) == 127 || is_c1) name[i] = '?';
+    if (is_c1) name[i + 1] = '?';
+  }
   return name;
 }
 
@@ -33,8 +38,9 @@ void print(const char* what, const rti::FederateReport& federate, const std::str
               shown(federate.type).c_str(), what, shown(federation).c_str());
 }
 
+/// `all` ascend by handle.
 bool has(const std::vector<rti::FederateReport>& all, const rti::FederateReport& federate) {
-  return std::ranges::find(all, federate.federate, &rti::FederateReport::federate) != all.end();
+  return std::ranges::binary_search(all, federate.federate, {}, &rti::FederateReport::federate);
 }
 
 }  // namespace
@@ -83,7 +89,8 @@ void RtiHost::serve(double seconds) {
 void RtiHost::print_changes() {
   Joined now;
   for (const auto& each : directory_.list())
-    now[each.federation] = directory_.find(each.federation)->report().federates;
+    std::ranges::sort(now[each.federation] = directory_.find(each.federation)->report().federates,
+                      {}, &rti::FederateReport::federate);
   for (const auto& [federation, federates] : joined_) {
     const auto found = now.find(federation);
     for (const rti::FederateReport& each : federates)

@@ -71,7 +71,7 @@ void add_options(Flags& flags, RtiOptions& options) {
   flags.name("rink rti");
   flags.description(
       "Host the federations of an object model: federates create, join and leave them until this "
-      "is interrupted, which they are told. Needs nothing of the game.");
+      "is interrupted; then each is sent the reason. Needs nothing of the game.");
   flags.footer(std::string("Example: rink rti --fom harbour.xml --federation harbour\n") +
                exit_status_help);
   const Flag fom = flags.option("--fom", options.fom,

@@ -13,15 +13,21 @@ bool EntryReader::handle(Reader& reader, const ReadContext& context, bool is_pos
   if (attributes.is_empty() || !attributes.includes(repeated) ||
       !basis_.fom.attributes(ObjectClassHandle{message.object_class}).includes(attributes))
     return false;
+  if (context.is_released) return read_block(message, reader, context, is_postponing);
   header_ = message;
   return handle_again(reader, context, is_postponing);
 }
 
 bool EntryReader::handle_again(Reader& reader, const ReadContext& context, bool is_postponing) {
-  if (!header_ || !context.stamp || context.timed != nullptr) return false;
-  const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{header_->object_class});
-  const Block block{*header_, object_class, AttributeSet{header_->attributes},
-                    AttributeSet{header_->repeated}};
+  return header_ && read_block(*header_, reader, context, is_postponing);
+}
+
+bool EntryReader::read_block(const EntriesMessage& message, Reader& reader,
+                             const ReadContext& context, bool is_postponing) {
+  if (!context.stamp || context.timed != nullptr) return false;
+  const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{message.object_class});
+  const Block block{message, object_class, AttributeSet{message.attributes},
+                    AttributeSet{message.repeated}};
   return read_records(block, reader, context, is_postponing) || !basis_.phase.is_joined();
 }
 
@@ -40,12 +46,14 @@ bool EntryReader::read_records(const Block& block, Reader& reader, const ReadCon
     const KnownObject* known = uses_.book.find(object);
     if (known == nullptr && uses_.book.is_gone(object)) continue;
     if (known == nullptr || known->object_class != object_class) return false;
-    uses_.objects.change_scope(object, object_class, true);
+    if (!context.is_released) uses_.objects.change_scope(object, object_class, true);
     if (!basis_.phase.is_joined()) return false;
-    if (record.form == EntryForm::held) {
-      if (!reflect_held(block, object, context, is_postponing)) return false;
-    } else if (is_postponing) {
-      uses_.postponed.keep_values(*context.stamp, block.message, object, values_);
+    if (is_postponing) {
+      if (record.form == EntryForm::held)
+        uses_.postponed.keep_held(*context.stamp, block.message, object);
+      else uses_.postponed.keep_values(*context.stamp, block.message, object, values_);
+    } else if (record.form == EntryForm::held) {
+      if (!reflect_held(block, object, context)) return false;
     } else if (!uses_.updates.reflect_entry(block.message, object, values_, context)) {
       return false;
     }
@@ -72,16 +80,12 @@ bool EntryReader::read_values(const Block& block, Reader& reader) {
   return true;
 }
 
-bool EntryReader::reflect_held(const Block& block, ObjectHandle object, const ReadContext& context,
-                               bool is_postponing) {
-  const std::uint16_t object_class = block.message.object_class;
+bool EntryReader::reflect_held(const Block& block, ObjectHandle object,
+                               const ReadContext& context) {
   values_.clear();
-  if (!uses_.residuals.append_held(object, object_class, block.attributes, values_)) return false;
-  if (!is_postponing) return uses_.updates.reflect_held(block.message, object, values_, context);
-  std::vector<std::byte> coded;
-  encode(block.object_class, block.attributes, values_, context.stamp->time, coded);
-  uses_.postponed.keep_values(*context.stamp, block.message, object, coded);
-  return true;
+  return uses_.residuals.append_held(object, block.message.object_class, block.attributes,
+                                     values_) &&
+         uses_.updates.reflect_held(block.message, object, values_, context);
 }
 
 }  // namespace rink::rti

@@ -34,12 +34,13 @@ class EntryReader {
     const ObjectClass& object_class;
     AttributeSet attributes, repeated;
   };
+  bool read_block(const EntriesMessage& message, Reader& reader, const ReadContext& context,
+                  bool is_postponing);
   bool read_records(const Block& block, Reader& reader, const ReadContext& context,
                     bool is_postponing);
   /// Takes the values off the front; all of them, coded. False if they are malformed.
   bool read_values(const Block& block, Reader& reader);
-  bool reflect_held(const Block& block, ObjectHandle object, const ReadContext& context,
-                    bool is_postponing);
+  bool reflect_held(const Block& block, ObjectHandle object, const ReadContext& context);
 
   AmbassadorBasis basis_;
   Uses uses_;

@@ -2,6 +2,7 @@
 #include "rti/federate/delivery/postponed_messages.h"
 
 #include "rti/baselines/residual_bits.h"
+#include "rti/wire/entry_block.h"
 #include "rti/wire/update_block.h"
 
 namespace rink::rti {
@@ -32,6 +33,15 @@ void PostponedMessages::keep_values(const Stamp& stamp, const EntriesMessage& bl
   write(bytes_, stamped);
   write(bytes_, header);
   RecordWriter(bytes_).add(object.value, values);
+}
+
+void PostponedMessages::keep_held(const Stamp& stamp, const EntriesMessage& block,
+                                  ObjectHandle object) {
+  StampMessage stamped{stamp};
+  EntriesMessage header{block.object_class, block.attributes, 0};
+  write(bytes_, stamped);
+  write(bytes_, header);
+  write_entry(bytes_, first_in_scope_block, {object.value, EntryForm::held});
 }
 
 /// Steps over a message.

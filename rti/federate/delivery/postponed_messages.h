@@ -20,6 +20,8 @@ class PostponedMessages {
   /// Keeps the coded values of an object that a block of entries brought, as an update.
   void keep_values(const Stamp& stamp, const EntriesMessage& block, ObjectHandle object,
                    Bytes values);
+  /// Keeps that the object is to be reflected as it is held once all before this was released.
+  void keep_held(const Stamp& stamp, const EntriesMessage& block, ObjectHandle object);
   bool is_empty() const { return bytes_.empty(); }
   /// True if a federate that never advances has let too much wait.
   bool is_overfull() const { return bytes_.size() > size_max; }

@@ -119,6 +119,7 @@ bool Announcements::introduce(std::uint32_t slot, ObjectSlot at, std::vector<std
     uses_.requests.discovered(slot, at, interest.attributes_in_scope(at, object.object_class));
     uses_.owners.discovered(slot, at);
     interest.holds_static.erase(at);
+    interest.holds_former.erase(at);
   }
   interest.known.insert(at);
   interest.unannounced.erase(at);

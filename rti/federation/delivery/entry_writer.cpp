@@ -32,8 +32,7 @@ void EntryWriter::write(FlushContext& context, std::size_t end) {
         blocks.close();
         frame.write_stamp(stamp);
       }
-      if (uses_.announcements.is_gathered(due)) write_entry(context, state, blocks);
-      else write_update(context, state, blocks);
+      write_state(context, state, blocks);
       ++basis_.counters.updates_sent;
       return true;
     });
@@ -55,6 +54,30 @@ EntryWriter::Due EntryWriter::state_due(FederateInterest& interest, ObjectSlot s
   if (interest.holds_static.contains(slot)) due.attributes = in_scope.without(statics);
   else if (!statics.is_empty() && in_scope.includes(statics)) interest.holds_static.insert(slot);
   return due;
+}
+
+/// A record has limited room: what does not fit is an update, or several.
+void EntryWriter::write_state(FlushContext& context, Due due, Blocks& blocks) {
+  const AttributeSet all = due.attributes;
+  for (AttributeSet left = all; !left.is_empty(); left = left.without(due.attributes)) {
+    due.attributes = fitting(due.slot, left);
+    if (due.attributes != all) due.in_scope = due.attributes, due.is_held = false;
+    if (uses_.announcements.is_gathered(due.slot)) write_entry(context, due, blocks);
+    else write_update(context, due, blocks);
+  }
+}
+
+/// The first of `set` whose values one record has room for.
+AttributeSet EntryWriter::fitting(ObjectSlot object, AttributeSet set) const {
+  if (basis_.objects.size_of(object, set) <= values_max) return set;
+  AttributeSet first;
+  std::size_t size = 0;
+  for (const AttributeHandle each : set) {
+    size += basis_.objects.size_of(object, {each});
+    if (!first.is_empty() && size > values_max) break;
+    first.insert(each);
+  }
+  return first;
 }
 
 void EntryWriter::write_update(FlushContext& context, const Due& due, Blocks& blocks) {
@@ -85,7 +108,9 @@ void EntryWriter::write_entry(FlushContext& context, const Due& due, Blocks& blo
     return;
   }
   AttributeSet again = repeated(last, due.slot, due.in_scope), set = due.in_scope;
-  if (!again.includes(set.without(due.attributes))) set = due.attributes, again = again & set;
+  if (!again.includes(set.without(due.attributes)) ||
+      basis_.objects.size_of(due.slot, set) > values_max)
+    set = due.attributes, again = again & set;
   blocks.entries.append({object.object_class, set.bits, again.bits}, object.handle.value,
                         is_discovered ? EntryForm::discovered : EntryForm::known, [&] {
                           for (const AttributeHandle each : set.without(again)) {

@@ -48,6 +48,8 @@ class EntryWriter {
     bool is_held = false;       ///< the federate was sent all of the values before
   };
   Due state_due(FederateInterest& interest, ObjectSlot slot);
+  void write_state(FlushContext& context, Due due, Blocks& blocks);
+  AttributeSet fitting(ObjectSlot object, AttributeSet set) const;
   void write_update(FlushContext& context, const Due& due, Blocks& blocks);
   void write_entry(FlushContext& context, const Due& due, Blocks& blocks);
   /// Those whose values are the ones of the class's last entry.

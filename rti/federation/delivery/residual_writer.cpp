@@ -192,6 +192,7 @@ void ResidualWriter::write_rest(FlushContext& context) {
 }
 
 void ResidualWriter::sent_whole(const UpdateRun& run, FederateInterest& interest) const {
+  if (interest.turns) return sent_otherwise(run, interest);  // some objects may wait
   const AttributeSet kept = model_.kept(run.object_class);
   if (kept.is_empty() || !run.attributes.includes(kept)) return;
   for (std::size_t i = run.first_word; i <= run.last_word; ++i)

@@ -46,7 +46,7 @@ void TurnWriter::apply_turns(FlushContext& context) {
 
 /// Marks this flush's updates of objects that wait or waited as late; under a budget those of all
 /// objects, since it is not known yet which wait. Late attributes of objects out of scope are
-/// forgotten: an object that comes back is sent in full.
+/// forgotten: an object that comes back changed is sent in full.
 void TurnWriter::note_late(const FlushContext& context, Turns& turns) {
   const FederateInterest& interest = context.interest;
   for (std::size_t i = 0; i < turns.late.word_count(); ++i)

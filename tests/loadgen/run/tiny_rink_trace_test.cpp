@@ -30,7 +30,8 @@ TEST_F(TinyRink, AnotherGameThanTheServersIsRefused) {
 TEST_F(TinyRink, EvidenceReadsBackAsItWasWritten) {
   decide(0.5, {bat, still, far});
   server_.keys = {
-      {.time = 0.1 + 0.2, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::down}};
+      {.time = 0.1 + 0.2, .player = 0, .kind = game::InputKind::key_up, .key = game::Key::down},
+      {.time = 0.5, .player = 0, .kind = game::InputKind::push, .push = {-127, 3}}};
   server_.ticks = {{0.1, 1e-6, 2e-6, 3.5e-6}};
   server_.scheme = "grid";
   const std::string file = (folder_ / "server.jsonl").string();

@@ -104,6 +104,7 @@ class Play {
       watcher.ambassador.commit_region_modifications(watcher.region);
       subscribe(watcher, every());
     }
+    if (seed % 4 >= 2) constrain(session_.watchers.back());
     while (objects_.size() < 6) add();
   }
 
@@ -114,7 +115,9 @@ class Play {
         update(k);
     for (unsigned times = is_quiet_ ? below(16) / 15 : below(4); times > 0; --times) hit();
     if (below(20) == 0) replace(below(static_cast<unsigned>(objects_.size())));
+    is_settled_ = false;
     for (std::size_t k = 1; k < session_.watchers.size(); ++k) change(session_.watchers[k], k > 1);
+    ask(30);
     session_.tick();
     ++ticks_;
   }
@@ -122,7 +125,7 @@ class Play {
   void compare() const {
     for (std::size_t k = 1; k < session_.watchers.size(); ++k) {
       const Watcher& watcher = session_.watchers[k];
-      if (!watcher.is_reading) continue;
+      if (!watcher.is_reading || (&watcher == constrained_ && !is_settled_)) continue;
       for (const Owned& each : objects_) {
         if (!watcher.in_scope.contains(each.object.value)) continue;
         for (const auto& [attribute, value] : each.newest)
@@ -139,8 +142,12 @@ class Play {
     for (std::size_t k = 1; k < session_.watchers.size(); ++k)
       session_.watchers[k].is_reading = true;
     session_.is_over = true;
-    for (int i = 0; i < 600; ++i) session_.tick();  // of four datagrams one is lost again
+    for (int i = 0; i < 600; ++i) {  // of four datagrams one is lost again
+      ask(1);
+      session_.tick();
+    }
     session_.is_over = false;
+    is_settled_ = true;
   }
   const rti::FederationCounters& counters() const { return session_.execution.counters(); }
 
@@ -171,6 +178,18 @@ class Play {
     watcher.ambassador.subscribe_object_class_attributes(rink_model().entity, set, watcher.region);
     watcher.subscribed = set;
   }
+  /// Values in receive order reach it only while it waits for a grant.
+  void constrain(Watcher& watcher) {
+    watcher.ambassador.enable_time_constrained();
+    for (int i = 0; i < 3; ++i) session_.tick();
+    constrained_ = &watcher;
+  }
+  /// Who is constrained asks to advance, once in `rarely` times.
+  void ask(unsigned rarely) {
+    if (constrained_ == nullptr || constrained_->is_waiting || below(rarely) != 0) return;
+    constrained_->is_waiting = true;
+    constrained_->ambassador.time_advance_request(rti::LogicalTime{asked_ += 1.0});
+  }
   /// One watcher always subscribes to all, for what nobody hears the owner keeps back.
   void change(Watcher& watcher, bool may_subscribe) {
     if (below(4) == 0) {
@@ -183,11 +202,14 @@ class Play {
         {rink_model().shape, rink_model().input, rink_model().trajectory}};
     if (may_subscribe && below(16) == 0) subscribe(watcher, sets[below(3)]);
     watcher.is_reading = below(6) != 0;
+    if (may_subscribe && &watcher != constrained_ && below(16) == 0)
+      watcher.forget(objects_[below(static_cast<unsigned>(objects_.size()))].object);
   }
 
   void add() {
     Owned& added = objects_.emplace_back();
-    added.object = owner().register_object_instance(rink_model().entity);
+    const std::string name = below(2) == 0 ? "" : "entity " + std::to_string(++named_);
+    added.object = owner().register_object_instance(rink_model().entity, name);
     added.region = owner().create_region();
     const double x = below(11), y = below(6);
     owner().set_region(added.region, {x, y, x + 0.5, y + 0.5});
@@ -288,6 +310,10 @@ class Play {
   std::mt19937_64 random_;
   Session session_;
   std::vector<Owned> objects_;
+  Watcher* constrained_ = nullptr;
+  bool is_settled_ = false;
+  double asked_ = 100.0;
+  unsigned named_ = 0;
   bool is_quiet_;  ///< few updates, so that some objects come back unchanged
   double now_ = 10.0;
   int ticks_ = 0;
@@ -302,6 +328,8 @@ TEST(ResidualSession, FederatesHaveTheOwnersValuesWhateverEntersLeavesOrIsHeldBa
       play.tick();
       play.compare();
     }
+    play.settle();
+    play.compare();
     residuals += play.counters().residuals_sent;
     companions += play.counters().companions_sent;
     held_back += play.counters().updates_held_back;
@@ -311,6 +339,24 @@ TEST(ResidualSession, FederatesHaveTheOwnersValuesWhateverEntersLeavesOrIsHeldBa
   EXPECT_GT(companions, 500u);
   EXPECT_GT(held_back, 1000u);
   EXPECT_GT(held, 100u);
+}
+
+TEST(ResidualSession, ByTurnsFederatesHaveTheOwnersValuesOnceAllHadTheirTurn) {
+  std::uint64_t put_off = 0, entries = 0;
+  for (unsigned seed = 0; seed < 40 && !testing::Test::HasFatalFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Play play(seed, seed % 2 == 0 ? "region with tiers(at=0.2 at=0.5)"
+                                  : "region with priority(budget=120)");
+    for (int round = 0; round < 6 && !testing::Test::HasFatalFailure(); ++round) {
+      for (int tick = 0; tick < 20; ++tick) play.tick();
+      play.settle();
+      play.compare();
+    }
+    put_off += play.counters().updates_put_off;
+    entries += play.counters().scope_entries;
+  }
+  EXPECT_GT(put_off, 5000u) << "or the test shows nothing";
+  EXPECT_GT(entries, 3000u);
 }
 
 TEST(ResidualSession, OverAStormFederatesHaveTheOwnersValuesOnceItIsOver) {

@@ -24,10 +24,22 @@ using Values = std::vector<std::byte>;
 struct Watcher final : rti::FederateAmbassador {
   rti::Ambassador ambassador{rink_fom(), *this};
   std::map<std::uint32_t, std::map<std::uint32_t, Values>> values;
-  std::set<std::uint32_t> in_scope;
+  std::set<std::uint32_t> in_scope, known;
   rti::RegionHandle region;
   rti::AttributeSet subscribed;
   bool is_reading = true;
+  bool is_waiting = false;  ///< for a grant: until it asks, updates in receive order are put off
+  void time_advance_grant(rti::LogicalTime) override { is_waiting = false; }
+  /// A local deletion of what it knows: it discovers the object again.
+  void forget(rti::ObjectHandle object) {
+    if (!known.contains(object.value)) return;
+    ambassador.local_delete_object_instance(object);
+    remove_object_instance(object);
+  }
+  void discover_object_instance(rti::ObjectHandle object, rti::ObjectClassHandle,
+                                std::string_view) override {
+    known.insert(object.value);
+  }
   void attributes_in_scope(rti::ObjectHandle object) override { in_scope.insert(object.value); }
   /// What comes back into scope must be sent anew, or reflected since it is held; but for what is
   /// given one value for good.
@@ -38,6 +50,7 @@ struct Watcher final : rti::FederateAmbassador {
   }
   void remove_object_instance(rti::ObjectHandle object) override {
     in_scope.erase(object.value);
+    known.erase(object.value);
     values.erase(object.value);
   }
   void reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet set, rti::Bytes sent,

@@ -163,6 +163,17 @@ TEST(KeyIntake, LimitsKeysAndPushesEachByABucketOfItsOwn) {
   EXPECT_EQ(keys.felt()[0], 2000u) << "nobody waits for what is not felt";
 }
 
+TEST(KeyIntake, FeelsTheEndOfAPushWhateverTheLimit) {
+  KeyIntake keys(1, match_key_limit_default);
+  const KeyArrival arrival{.now_s = 1.0};
+  while (keys.accept_push(0, bytes("aa"), arrival)) continue;
+  const auto none = bytes({"\x7f\x7f", 2});
+  const auto end = keys.accept_push(0, none, arrival);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->push, Push());
+  EXPECT_FALSE(keys.accept_push(0, none, arrival)) << "there is nothing left to end";
+}
+
 TEST(KeyIntake, EndsThePushOfOneWhoLeavesItsHand) {
   KeyIntake keys(1, 0.0);
   keys.accept_push(0, bytes("aa"), {.simulated_s = 1.0, .wanted_s = 1.0});

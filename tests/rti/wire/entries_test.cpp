@@ -175,5 +175,76 @@ TEST(Entries, TwiceDiscoveredEndTheConnection) {
   EXPECT_FALSE(listener.ambassador.receive(bytes));
 }
 
+/// Hands what goes to connection 0 and 1 to two ambassadors.
+struct Pair final : Outlet {
+  FederationExecution execution;
+  Ambassador first, second;
+  Pair(const Fom& fom, FederateAmbassador& first_heard, FederateAmbassador& second_heard)
+      : execution(fom, {}), first(fom, first_heard), second(fom, second_heard) {
+    execution.connect(0);
+    execution.connect(1);
+    first.join("rink", "first", "tester");
+    second.join("rink", "second", "tester");
+    tick();
+  }
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    for (const Bytes part : parts) ASSERT_TRUE((connection == 0 ? first : second).receive(part));
+  }
+  void drop(ConnectionId, std::string_view why) override { ADD_FAILURE() << why; }
+  void tick() {
+    for (int i = 0; i < 3; ++i) {
+      for (ConnectionId id = 0; id < 2; ++id) {
+        Ambassador& each = id == 0 ? first : second;
+        execution.receive(id, each.outgoing());
+        each.clear_outgoing();
+      }
+      execution.match();
+      execution.flush(*this);
+    }
+  }
+};
+
+/// The size of each value of the one object that it knows.
+struct Sizes final : FederateAmbassador {
+  explicit Sizes(const Fom& fom) : fom(fom) {}
+  const Fom& fom;
+  std::map<std::uint32_t, std::size_t> of;
+  void reflect_attribute_values(ObjectHandle, AttributeSet set, Bytes values,
+                                const Stamp&) override {
+    for (const AttributeHandle each : set)
+      of[each.value] = fom.value(ObjectClassHandle{1}, set, each, values).size();
+  }
+};
+
+TEST(Entries, LongerThanARecordAreSentAsOneAndUpdates) {
+  const Fom fom = Fom::parse(
+      R"(<objectModel><modelIdentification><name>Library</name></modelIdentification><objects>
+<objectClass><name>HLAobjectRoot</name><objectClass><name>Book</name>
+<attribute><name>first</name><dataType>HLAASCIIstring</dataType></attribute>
+<attribute><name>second</name><dataType>HLAASCIIstring</dataType></attribute>
+<attribute><name>third</name><dataType>HLAASCIIstring</dataType></attribute>
+</objectClass></objectClass></objects></objectModel>)",
+      "library.xml");
+  const ObjectClassHandle book = *fom.object_class("Book");
+  FederateAmbassador author;
+  Sizes reader(fom);
+  Pair pair(fom, author, reader);
+  pair.first.publish_object_class_attributes(book, fom.attributes(book));
+  const ObjectHandle object = pair.first.register_object_instance(book);
+  for (const AttributeHandle each : fom.attributes(book)) {
+    const std::uint32_t length = 20000;
+    std::vector<std::byte> text(sizeof length + length, std::byte{'a'});
+    const std::byte size[] = {std::byte{length & 0xff}, std::byte{length >> 8}, std::byte{0},
+                              std::byte{0}};
+    std::ranges::copy(size, text.begin());
+    pair.first.update_attribute_values(object, AttributeSet{each}, text, {1.0, 0});
+    pair.tick();
+  }
+  pair.second.subscribe_object_class_attributes(book, fom.attributes(book));
+  pair.tick();
+  EXPECT_EQ(reader.of.size(), 3u);
+  for (const auto& [attribute, size] : reader.of) EXPECT_EQ(size, 20004u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing

@@ -172,6 +172,9 @@ TEST(PublishedModels, EachFaultIsNamedByFileLineElementAndClause) {
       Fault{"[1..3], 7", "256",
             "tavern.xml:26: <value> of <enumerator> 'Small' does not fit the 1 bytes of its "
             "representation (IEEE 1516.2-2010, 4.13)"},
+      Fault{"<representation>HLAoctet", "<representation>HLAunicodeString",
+            "tavern.xml:25: <enumeratedData> 'StoveKind' has a representation without a size; "
+            "allowed are numbers, such as HLAinteger32BE (IEEE 1516.2-2010, 4.13)"},
       Fault{"[Hand .. Mate], Master", "[Mate .. Hand]",
             "tavern.xml:32: <alternative> 'stars' has the range [Mate..Hand], whose ends are the "
             "wrong way round (IEEE 1516.2-2010, 4.13)"},

@@ -50,7 +50,7 @@ std::optional<InputEvent> KeyIntake::accept(std::uint32_t player, bool is_down, 
     ++counters_.refused;
     return std::nullopt;
   }
-  const std::optional<double> time = admit(player, false, arrival);
+  const std::optional<double> time = admit(player, Input::key, arrival);
   if (!time) return std::nullopt;
   hands_[player].held.set(*key, is_down);
   return InputEvent{.time = *time,
@@ -68,7 +68,9 @@ std::optional<InputEvent> KeyIntake::accept_push(std::uint32_t player, rti::Byte
     return std::nullopt;
   }
   ++counters_.received, ++counters_.pushes;
-  const std::optional<double> time = admit(player, true, arrival);
+  // The end of a push is always felt: its player would not send it again.
+  const bool is_end = push_of(steps) == Push() && hands_[player].push != Push();
+  const std::optional<double> time = admit(player, is_end ? Input::push_end : Input::push, arrival);
   if (!time) return std::nullopt;
   hands_[player].push = push_of(steps);
   return InputEvent{
@@ -76,15 +78,16 @@ std::optional<InputEvent> KeyIntake::accept_push(std::uint32_t player, rti::Byte
 }
 
 /// When a sound key change or push takes effect; nothing if it is only acknowledged.
-std::optional<double> KeyIntake::admit(std::uint32_t player, bool is_push,
+std::optional<double> KeyIntake::admit(std::uint32_t player, Input input,
                                        const KeyArrival& arrival) {
   Hand& hand = hands_[player];
   const double time = stamp(hand, arrival);
   waiting_.push_back({.time = time, .player = player});
-  if (!(is_push ? hand.push_allowance : hand.allowance).take(1.0, arrival.now_s)) {
+  rti::TokenBucket& allowance = input == Input::key ? hand.allowance : hand.push_allowance;
+  if (input != Input::push_end && !allowance.take(1.0, arrival.now_s)) {
     ++counters_.over_limit;
     counters_.player_over_limit = player;
-    counters_.is_push_over_limit = is_push;
+    counters_.is_push_over_limit = input == Input::push;
     return std::nullopt;
   }
   if (!arrival.is_felt) return std::nullopt;

@@ -93,7 +93,8 @@ class KeyIntake {
 
   Hand fresh_hand(double now_s) const;
   double stamp(Hand& hand, const KeyArrival& arrival);
-  std::optional<double> admit(std::uint32_t player, bool is_push, const KeyArrival& arrival);
+  enum class Input : std::uint8_t { key, push, push_end };
+  std::optional<double> admit(std::uint32_t player, Input input, const KeyArrival& arrival);
 
   double limit_per_s_, push_limit_per_s_;
   std::vector<Hand> hands_;          ///< by player
