@@ -20,8 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The due instant in stamps before the start, when nothing is due yet.
-constexpr double not_started_s = 0.0;
+constexpr double not_started_s = 0.0;  ///< the due instant in stamps before the start
 
 /// The bat of a player that has left before the start goes to whoever comes.
 double begin(SharedPlay& shared, const Seats& seats) {
@@ -158,11 +157,8 @@ std::uint64_t ServerProcess::leave_out(std::uint64_t number, std::uint64_t last,
   return number + left_out;
 }
 
-/// Plays up to the last tick before `simulated_s` [s] where ticks were left out, and returns the
-/// instant up to which the tick at hand shall play: earlier where playing takes longer than what is
-/// played, so that the game falls behind instead of each tick having more to play than the one
-/// before. Clients hear from the server meanwhile: one tick that played 9 s at once lost them all.
-/// Adds the time that playing took to `physics_s` [s].
+/// Plays ticks that were left out, hearing from clients meanwhile. Returns up to when the tick at
+/// hand shall play, earlier where that takes longer than what is played; adds to `physics_s` [s].
 double ServerProcess::catch_up(double simulated_s, double& physics_s) {
   if (!overload_) return simulated_s;
   constexpr double patience_s = 1.0, silence_s = 0.25;
