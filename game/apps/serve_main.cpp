@@ -49,22 +49,15 @@ using Json = nlohmann::ordered_json;
 /// Queries a running server, once or repeatedly.
 ExitStatus show_status(const ServeOptions& options) try {
   const auto [address, port] = address_and_port("--status", options.status);
-  do {
-    const StatusAnswer answer = ask_status({.address = address,
-                                            .port = port,
-                                            .transport = options.transport,
-                                            .key_file = options.key_file},
-                                           now_s);
-    if (!answer.reports) {
-      complain("--status: ", options.status, ": ", answer.error);
-      return ExitStatus::no_server;
-    }
-    std::fputs(status_table(*answer.reports).c_str(), stdout);
-    std::fflush(stdout);
-    const double next_s = now_s() + options.every_s;
-    while (options.every_s > 0.0 && !is_interrupted && now_s() < next_s)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  } while (options.every_s > 0.0 && !is_interrupted);
+  const auto error = print_status({.address = address,
+                                   .port = port,
+                                   .transport = options.transport,
+                                   .key_file = options.key_file},
+                                  options.every_s, now_s);
+  if (error) {
+    complain("--status: ", options.status, ": ", *error);
+    return ExitStatus::no_server;
+  }
   return ExitStatus::ok;
 } catch (const rti::TransportError& error) {
   complain("--status: ", error.what());

@@ -1,9 +1,7 @@
 // rink rti: hosts the federations of any object model, or says what an object model's files mean.
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <thread>
 
 #include "game/apps/command.h"
 #include "game/apps/rti/rti_check.h"
@@ -21,24 +19,17 @@ namespace {
 
 ExitStatus show_status(const RtiOptions& options) try {
   const auto [address, port] = address_and_port("--status", options.status);
-  do {
-    const StatusAnswer answer = ask_status(
-        {.address = address,
-         .port = port,
-         .transport = options.transport,
-         .key_file = options.key_file,
-         .federation = options.federations.empty() ? "rink" : options.federations.front()},
-        now_s);
-    if (!answer.reports) {
-      complain("--status: ", options.status, ": ", answer.error);
-      return ExitStatus::no_server;
-    }
-    std::fputs(status_table(*answer.reports).c_str(), stdout);
-    std::fflush(stdout);
-    const double next_s = now_s() + options.every_s;
-    while (options.every_s > 0.0 && !is_interrupted && now_s() < next_s)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  } while (options.every_s > 0.0 && !is_interrupted);
+  const auto error = print_status(
+      {.address = address,
+       .port = port,
+       .transport = options.transport,
+       .key_file = options.key_file,
+       .federation = options.federations.empty() ? "rink" : options.federations.front()},
+      options.every_s, now_s);
+  if (error) {
+    complain("--status: ", options.status, ": ", *error);
+    return ExitStatus::no_server;
+  }
   return ExitStatus::ok;
 } catch (const rti::TransportError& error) {
   complain("--status: ", error.what());

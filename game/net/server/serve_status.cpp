@@ -2,10 +2,13 @@
 #include "game/net/server/serve_status.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "game/net/gate.h"
+#include "game/net/interrupt.h"
 #include "rti/ambassador.h"
 #include "rti/federation_execution.h"
 #include "rti/transport/federate_link.h"
@@ -128,6 +131,20 @@ std::string status_table(const std::vector<rti::FederationReport>& reports) {
     }
   }
   return text;
+}
+
+std::optional<std::string> print_status(const StatusQuestion& question, double every_s,
+                                        const std::function<double()>& now_s) {
+  do {
+    const StatusAnswer answer = ask_status(question, now_s);
+    if (!answer.reports) return answer.error;
+    std::fputs(status_table(*answer.reports).c_str(), stdout);
+    std::fflush(stdout);
+    const double next_s = now_s() + every_s;
+    while (every_s > 0.0 && !is_interrupted && now_s() < next_s)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  } while (every_s > 0.0 && !is_interrupted);
+  return std::nullopt;
 }
 
 }  // namespace rink::game

@@ -31,4 +31,9 @@ StatusAnswer ask_status(const StatusQuestion& question, const std::function<doub
 /// A paragraph for each federation, a line for each of its federates.
 std::string status_table(const std::vector<rti::FederationReport>& reports);
 
+/// Prints the table of each answer to standard output, once or every `every_s` [s] until
+/// interrupted. Returns the error of an answer without reports. Throws as `ask_status` does.
+std::optional<std::string> print_status(const StatusQuestion& question, double every_s,
+                                        const std::function<double()>& now_s);
+
 }  // namespace rink::game
