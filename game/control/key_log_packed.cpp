@@ -30,7 +30,7 @@ enum class TimeForm : std::uint8_t { on_grid, near_millisecond, in_full };
 /// The optional numbers, by their bits in the log's first byte.
 enum class Part : std::uint8_t { bats, bat_count, puck_count, fingerprint, until, hash };
 
-/// Of a log with pushes: one is told as somebody who enters with this key.
+/// A push is written as an `enter` with this key, in logs with pushes.
 constexpr Key push_mark = Key::right;
 
 constexpr unsigned player_bits = 2, player_elsewhere = (1u << player_bits) - 1;

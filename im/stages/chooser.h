@@ -12,8 +12,8 @@
 
 namespace rink::im {
 
-/// Has `choose` look at a subscriber's list when it, or one of its entities, moved, changed in what
-/// `uses` says, came or went; at nobody else's.
+/// Calls `choose` for a subscriber's list only if the subscriber or an entity of the list moved,
+/// changed in what `uses` says, came or went.
 class Chooser : public Parts {
  public:
   Chooser(std::unique_ptr<Filter> inner, const PairUses& uses);

@@ -13,8 +13,8 @@
 
 namespace rink::rti {
 
-/// One list for all such federates, each of whom has received the changes of the flushes up to one:
-/// so its cost per flush does not grow with the number of phases in which federates are updated.
+/// All such federates share one list. Each remembers the last flush whose changes it has received,
+/// so the cost of a flush does not grow with the number of phases.
 /// Of each attribute that was updated more than once, only the newest update stays, under its own
 /// stamp. Values are read from the object table when they are sent. Keeps its memory.
 class PendingChanges {

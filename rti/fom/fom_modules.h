@@ -14,8 +14,8 @@ namespace rink::rti {
 
 /// Definitions may be repeated if they agree, semantics aside; a class may be named without content
 /// to define subclasses of it (scaffolding). All else is a conflict, an InconsistentFDD that names
-/// both places. What is wrong is told by file, line, element and the clause of IEEE 1516.2-2010
-/// that speaks of it.
+/// both places. An error names file, line, element and the clause of IEEE 1516.2-2010 that it
+/// breaks.
 ///
 /// A module that defines the management classes (HLAmanager with HLAfederate) is taken for the
 /// standard's management and initialization module. Those classes, its dimensions and what it says

@@ -38,7 +38,7 @@ struct ServeOptions {
   /// is slowed.
   std::uint64_t events_per_s = 2'000'000;
   double key_limit_per_s = key_limit_default;    ///< of each player; 0: none
-  double push_limit_per_s = push_limit_default;  ///< likewise
+  double push_limit_per_s = push_limit_default;  ///< of each player; 0: none
 };
 
 /// Whether other servers share the simulation.

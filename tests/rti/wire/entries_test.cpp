@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// Writes down what it is told, in order.
+/// Records its callbacks in their order.
 struct Listener final : FederateAmbassador {
   std::vector<std::string> heard;
   Ambassador ambassador{harbour(), *this};
