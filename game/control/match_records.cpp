@@ -10,6 +10,14 @@
 #include "game/model/system_reason.h"
 
 namespace rink::game {
+namespace {
+
+/// Where a record is written before it takes the place of `file`.
+std::filesystem::path beside_of(const std::filesystem::path& file) {
+  return file.parent_path() / ("." + file.filename().string());
+}
+
+}  // namespace
 
 void MatchRecords::require_writable() const {
   std::error_code error;
@@ -27,18 +35,33 @@ void MatchRecords::require_writable() const {
                      ": records of matches cannot be written to this folder: " + reason);
 }
 
+/// Takes the first number that no match has, by a file beside the record of which nobody else can
+/// make a second; the record itself is not there before it is whole.
+void MatchRecords::take_number() {
+  while (open_.empty()) {
+    const std::filesystem::path file = folder_ / ("match-" + std::to_string(next_++) + ".keys");
+    if (std::filesystem::exists(std::filesystem::symlink_status(file))) continue;
+    const std::filesystem::path beside = beside_of(file);
+    errno = 0;
+    std::FILE* const fresh = std::fopen(beside.c_str(), "wbx");  // only if nobody has it
+    if (fresh != nullptr) {
+      std::fclose(fresh);
+      // Another may have put its record there since it was looked for.
+      std::error_code ignored;
+      if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+        std::filesystem::remove(beside, ignored);
+      else open_ = file;
+    } else if (errno != EEXIST) {
+      throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
+    }
+  }
+}
+
 /// Beside it first, and then in its place at once, so that none is ever half written.
 void MatchRecords::write_open(const KeyLog& log) {
   require_writable();
-  while (open_.empty()) {
-    const std::filesystem::path file = folder_ / ("match-" + std::to_string(next_++) + ".keys");
-    errno = 0;
-    std::FILE* const fresh = std::fopen(file.c_str(), "wbx");  // only if nobody has it
-    if (fresh != nullptr) open_ = file, std::fclose(fresh);
-    else if (errno != EEXIST)
-      throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
-  }
-  const std::filesystem::path whole = folder_ / ("." + open_.filename().string());
+  take_number();
+  const std::filesystem::path whole = beside_of(open_);
   std::error_code error;
   try {
     write_packed_key_log(whole, log);
@@ -46,7 +69,8 @@ void MatchRecords::write_open(const KeyLog& log) {
     if (error) throw SceneError(open_.string() + ": cannot be written: " + error.message());
   } catch (const SceneError&) {
     std::error_code ignored;
-    if (!open_until_) std::filesystem::remove(open_, ignored), open_.clear();
+    std::filesystem::remove(whole, ignored);
+    if (!open_until_) open_.clear();
     throw;
   }
   open_until_ = log.until;

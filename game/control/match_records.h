@@ -36,6 +36,7 @@ class MatchRecords {
 
  private:
   void require_writable() const;
+  void take_number();
   void write_open(const KeyLog& log);
   template <class Attempt>
   std::optional<std::string> first_error(Attempt attempt);

@@ -3,8 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <fstream>
 #include <set>
+#include <thread>
 
 #include "game/control/key_log_file.h"
 #include "game/control/replay.h"
@@ -96,6 +98,30 @@ TEST_F(RecordsOfMatches, AreThereAsTheMatchGoesOnButForItsLastSecond) {
   EXPECT_EQ(records.write(whole), folder / "match-2.keys") << "the next match's";
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("match-"));
+}
+
+/// A reader beside the writer, as somebody who copies records while a server runs.
+TEST_F(RecordsOfMatches, AreWholeWheneverTheyAreThere) {
+  const KeyLog log = local_match(1.0);
+  constexpr int count = 200;
+  std::atomic<bool> is_written = false;
+  std::thread writer([&] {
+    MatchRecords records(folder);
+    for (int number = 1; number <= count; ++number) records.write(log);
+    is_written = true;
+  });
+  for (int number = 1; number <= count;) {
+    const std::filesystem::path file = folder / ("match-" + std::to_string(number) + ".keys");
+    const bool was_written = is_written;
+    if (std::filesystem::exists(file)) {
+      EXPECT_NO_THROW(EXPECT_EQ(read_key_log(file).hash, log.hash)) << file;
+      ++number;
+    } else if (was_written) {
+      ADD_FAILURE() << file << " is not there";
+      break;
+    }
+  }
+  writer.join();
 }
 
 TEST_F(RecordsOfMatches, ThatGoOnInOneFolderNeverTakeEachOthersFile) {
