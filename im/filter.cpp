@@ -25,7 +25,8 @@
   SCHEME(region)             \
   SCHEME(sight)              \
   SCHEME(strips)             \
-  SCHEME(team)
+  SCHEME(team)               \
+  SCHEME(tiles)
 
 namespace rink::im {
 

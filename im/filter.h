@@ -179,6 +179,7 @@ struct FilterSettings {
                                  ///< 0 to 180; people see sharply over some 120 degrees
   double nimbus_radius = 0.0;    ///< of the scheme `nimbus` [m]; 0: that of the focus
   double awareness = 0.0;        ///< at which an entity matters there, 0 to 1
+  std::uint32_t tile_steps = 4;  ///< of the scheme `tiles`, up to 64
   std::vector<Disc> posts{};     ///< discs that block the view [m]
   double drag = 0.0;             ///< of all flights: dv/dt = -drag v [1/s]
   std::span<const rink_plugin* const> plugins{};  ///< that expressions may name; they outlive the

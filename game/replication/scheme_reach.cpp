@@ -101,7 +101,7 @@ double reach_along(Trial& trial, double x, double y, double farthest) {
 
 SchemeReach reach_of(const std::string& scheme, im::FilterSettings settings, double extent_max) {
   for (const char* const plain :
-       {"region", "aura", "hybrid", "sight", "cone", "diamond", "nimbus", "pvs"})
+       {"region", "aura", "hybrid", "sight", "cone", "diamond", "nimbus", "pvs", "tiles"})
     if (scheme == plain) return {extent_max, extent_max};
   if (scheme == "none") return {infinity, infinity};
   settings.posts.clear();  // which only hide

@@ -139,6 +139,7 @@ std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterS
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
   own.nimbus_radius = expression.parameter("radius", settings.nimbus_radius);
   own.awareness = expression.parameter("awareness", settings.awareness);
+  own.tile_steps = static_cast<std::uint32_t>(expression.parameter("steps", settings.tile_steps));
   auto scheme = make_scheme(expression.name, own);
   assert(scheme != nullptr);  // judged names are registered
   return scheme;

@@ -45,6 +45,8 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"swept", "drag", 0.0, 1e6, false, false, false},
                           Key{"swept", "horizon", 0.0, 1e6, false, true, false},
                           Key{"tiers", "at", 1e-6, 1.0, false, true, true},
+                          Key{"tiles", "cell_size", 1e-3, 1e6, false, false, false},
+                          Key{"tiles", "steps", 0.0, 64.0, true, false, false},
                           Key{"top", "k", 1.0, 1e6, true, true, false},
                           Key{"von", "area", 0.0, 1.0, false, false, false}};
 constexpr std::array stages{"donnybrook", "dwell", "hysteresis", "nearest", "priority",
@@ -119,6 +121,7 @@ std::string judge_settings(const FilterSettings& settings) {
     return "the radius of nimbi is not a finite number from 0";
   if (!(settings.awareness >= 0.0 && settings.awareness <= 1.0))
     return "the awareness at which an entity matters is not a number from 0 to 1";
+  if (settings.tile_steps > 64) return "the steps between tiles are not a number from 0 to 64";
   if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag))
     return "the drag of flights is not a finite number from 0";
   for (std::size_t i = 0; i < settings.posts.size(); ++i) {

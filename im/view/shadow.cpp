@@ -70,6 +70,8 @@ double shadow_clearance(const Disc& post, const Eye& eye, const Region& box) {
   return hidden > error ? hidden - error : 0.0;
 }
 
+bool holds(const Disc& post, double x, double y) { return distance_sign(post, x, y) < 0; }
+
 bool hides(const Disc& post, const Eye& eye, const Region& box) {
   assert(post.radius >= 0.0 && box == plain(box));
   // What reaches to the other side of the eye than the post is on is not behind it; most pairs end

@@ -14,5 +14,7 @@ bool hides(const Disc& post, const Eye& eye, const Region& box);
 /// How far the eye and the box may come before that can change [m], by doubles: above 0 if it hides
 /// all, below if not, 0 if that is in doubt.
 double shadow_clearance(const Disc& post, const Eye& eye, const Region& box);
+/// True if the point, which is plain, is inside the post; its rim is not.
+bool holds(const Disc& post, double x, double y);
 
 }  // namespace rink::im

@@ -55,6 +55,7 @@ constexpr std::array expressions{"region",
                                  "cone",
                                  "sight",
                                  "pvs(cell_size=0.5)",
+                                 "tiles(cell_size=0.5 steps=3)",
                                  "grid(cell_size=0.7)",
                                  "hex",
                                  "hierarchical",
@@ -76,7 +77,7 @@ constexpr std::array expressions{"region",
                                  "cone with dwell(matches=3)",
                                  "(aura or always) with swept(horizon=1 disc=1) with "
                                  "hysteresis(margin=1) with dwell(matches=2) with tiers(at=0.5)"};
-constexpr std::size_t forgetful_count = 19;
+constexpr std::size_t forgetful_count = 20;
 
 im::FilterSettings settings() {
   return {.world = world,

@@ -68,6 +68,7 @@ inline FilterSettings settings_for(std::uint64_t seed) {
   constexpr std::array awarenesses{0.0, 0.31415926535897931};
   settings.nimbus_radius = seed % 3 == 0 ? 0.0 : seed % 3 == 1 ? 1.25 : 4.0;
   settings.awareness = awarenesses[seed / 3 % awarenesses.size()];
+  settings.tile_steps = static_cast<std::uint32_t>(seed % 6);
   settings.posts = {{2.0, 2.0, 1.0},   {4.0, 4.0, 0.5},  {8.0, 8.25, 1.5},
                     {12.0, 3.0, 0.25}, {5.0, 12.0, 2.0}, {1.0, 0.5, 0.0}};
   Random random(seed);

@@ -106,7 +106,7 @@ TEST(PredicateFilter, AsksOnlyAboutThoseWhoCouldHaveChangedTheirAnswer) {
   };
   // 50 squares of 900 square metres hold 9,000 of these points.
   const double engine = asked_per_tick("region");
-  for (const char* scheme : {"hybrid", "hex", "diamond", "nimbus", "cone", "sight", "pvs"})
+  for (const char* scheme : {"hybrid", "hex", "diamond", "nimbus", "cone", "sight", "pvs", "tiles"})
     EXPECT_LT(asked_per_tick(scheme) - engine, 1'800.0) << scheme;
 }
 

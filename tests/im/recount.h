@@ -171,6 +171,44 @@ inline bool cells_see(const FilterSettings& settings, const Region& s, const Reg
   });
 }
 
+/// Rectangles overlap, and whoever goes so many steps from the subscription's tile, each over a
+/// side of which no post holds both ends, can come to that of `update`.
+inline bool tiles_reach(const FilterSettings& settings, const Region& s, const Region& u) {
+  if (!overlap_closed(s, u)) return false;
+  const double size = settings.cell_size, low_x = settings.world.low_x,
+               low_y = settings.world.low_y;
+  const auto tile = [&](const Region& region) {
+    return std::pair(std::floor((middle(region.low_x, region.high_x) - low_x) / size),
+                     std::floor((middle(region.low_y, region.high_y) - low_y) / size));
+  };
+  const auto is_in = [](const Disc& post, long double x, long double y) {
+    x -= post.x, y -= post.y;
+    return x * x + y * y < static_cast<long double>(post.radius) * post.radius;
+  };
+  const auto is_open = [&](double x, double y, double end_x, double end_y) {
+    return std::none_of(settings.posts.begin(), settings.posts.end(), [&](const Disc& post) {
+      return is_in(post, low_x + x * size, low_y + y * size) &&
+             is_in(post, low_x + end_x * size, low_y + end_y * size);
+    });
+  };
+  const std::pair end = tile(u);
+  std::set<std::pair<double, double>> reached{tile(s)};
+  for (double left = settings.tile_steps; left >= 0.0; --left) {
+    for (auto it = reached.begin(); it != reached.end();)  // who is too far to come there in time
+      if (std::abs(it->first - end.first) + std::abs(it->second - end.second) > left)
+        it = reached.erase(it);
+      else ++it;
+    if (reached.count(end) != 0) return true;
+    for (const auto& [x, y] : std::set(reached)) {
+      if (is_open(x, y, x, y + 1.0)) reached.emplace(x - 1.0, y);
+      if (is_open(x + 1.0, y, x + 1.0, y + 1.0)) reached.emplace(x + 1.0, y);
+      if (is_open(x, y, x + 1.0, y)) reached.emplace(x, y - 1.0);
+      if (is_open(x, y + 1.0, x + 1.0, y + 1.0)) reached.emplace(x, y + 1.0);
+    }
+  }
+  return false;
+}
+
 /// What each scheme promises, one pair at a time.
 inline Relevant rule_of(const std::string& scheme, const FilterSettings& settings) {
   const auto with_settings =
@@ -200,6 +238,7 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
         [settings](const Observer& s, const Region& u) { return sector_touches(settings, s, u); };
   if (scheme == "sight") return with_settings(is_in_sight);
   if (scheme == "pvs") return with_settings(cells_see);
+  if (scheme == "tiles") return with_settings(tiles_reach);
   if (scheme == "diamond") return diamond_touches;
   if (scheme == "nimbus") return with_settings(nimbus_touches);
   if (scheme == "strips") return with_settings(strip_touches);

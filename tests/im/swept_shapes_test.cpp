@@ -228,7 +228,7 @@ TEST(SweptShapes, NegateRolesAsEver) {
 TEST(SweptShapes, LeaveNothingBehindWhenAllHaveLanded) {
   std::size_t count = 0;
   for (const std::string scheme :
-       {"region", "aura", "cone", "sight", "pvs", "diamond", "nimbus", "grid", "hex",
+       {"region", "aura", "cone", "sight", "pvs", "tiles", "diamond", "nimbus", "grid", "hex",
         "hierarchical", "hybrid", "strips", "aura and not cone", "not region",
         "region and not (cone or aura)"})
     for (const bool by_flights : {false, true}) {
