@@ -12,6 +12,7 @@
 
 #include "bench/clock.h"
 #include "bench/rti/entity_federation.h"
+#include "rti/transport/staged/guard.h"
 #include "rti/transport/tcp/tcp.h"
 
 namespace rink::bench::rti_bench {
@@ -20,18 +21,26 @@ namespace {
 using namespace rink::rti;
 using namespace std::chrono_literals;
 
+/// Puts a guard with this key on top, if there is one.
+void guard(StagedTransport& transport, const SharedKey* key, Role role) {
+  if (key != nullptr)
+    transport.add<Guard>(*key, GuardSettings{.role = role}, [] { return seconds_of(); });
+}
+
 /// Reads and forgets on as many connections as asked for, in a thread of its own.
 class Sinks {
  public:
-  Sinks(std::uint16_t port, int count, bool are_federates) {
-    thread_ = std::thread([this, port, count, are_federates] {
-      TcpTransport tcp;
+  Sinks(std::uint16_t port, int count, bool are_federates, const SharedKey* key = nullptr) {
+    thread_ = std::thread([this, port, count, are_federates, key] {
+      TcpTransport sockets;
+      StagedTransport tcp(sockets);
+      guard(tcp, key, Role::federate);
       FederateLinks links;
       std::deque<CountingFederate> federates;
       std::deque<FederateLink> ends;
       for (int i = 0; i < count; ++i) {
         CountingFederate& federate = federates.emplace_back(reliable_entities());
-        links.add(ends.emplace_back(federate.ambassador, tcp, tcp.connect("127.0.0.1", port)));
+        links.add(ends.emplace_back(federate.ambassador, tcp, sockets.connect("127.0.0.1", port)));
         if (!are_federates) continue;
         federate.join("client " + std::to_string(i), "client");
         federate.subscribe(reliable_entities());
@@ -67,14 +76,16 @@ class Sinks {
 
 /// Ticks of 275 positions to each client; the figure is the sender's processor time per client and
 /// tick.
-void rink_tick_send(benchmark::State& state) {
+void tick_send(benchmark::State& state, const SharedKey* key) {
   const int clients = static_cast<int>(state.range(0));
   ensure_file_limit(static_cast<std::size_t>(2 * clients) + 64);
   FederationSettings settings;
   settings.timeouts.lost_after_s = 1e9;
-  TcpTransport tcp;
+  TcpTransport sockets;
+  StagedTransport tcp(sockets);
+  guard(tcp, key, Role::rti);
   EntityFederation federation(reliable_entities(), settings, tcp);
-  Sinks sinks(tcp.listen("127.0.0.1", 0), clients, true);
+  Sinks sinks(sockets.listen("127.0.0.1", 0), clients, true, key);
   while (!federation.has(clients)) federation.tick(0.0);
   federation.register_entities();
   double busy_s = 0.0;
@@ -94,6 +105,12 @@ void rink_tick_send(benchmark::State& state) {
   state.counters["cpu_us_per_client"] = 1e6 * busy_s / ticks / clients;
   state.counters["bytes_per_client"] =
       static_cast<double>(sinks.received() - bytes_before) / ticks / clients;
+}
+
+void rink_tick_send(benchmark::State& state) { tick_send(state, nullptr); }
+void sealed_tick_send(benchmark::State& state) {
+  const SharedKey key(std::as_bytes(std::span("a key that is long enough")));
+  tick_send(state, &key);
 }
 
 /// The same bytes by one raw send per client.
@@ -128,6 +145,7 @@ void raw_tick_send(benchmark::State& state) {
 
 BENCHMARK(raw_tick_send)->Name("rti/tick_send/raw_tcp")->Apply(send_to_crowds);
 BENCHMARK(rink_tick_send)->Name("rti/tick_send/rink")->Apply(send_to_crowds);
+BENCHMARK(sealed_tick_send)->Name("rti/tick_send/sealed")->Apply(send_to_crowds);
 
 }  // namespace
 }  // namespace rink::bench::rti_bench

@@ -18,21 +18,22 @@ struct GateSettings {
   rti::RateLimit rate_limit{};
 };
 
-/// Adds to `transport` the stages that the settings ask for. The rate counts at the socket, so it
-/// holds for unproven connections too. Throws std::runtime_error, which names the key file, if it
-/// can't be read or is too short. Returns `transport`.
+/// Adds to `transport` the stages that the settings ask for. The rate counts what is opened of
+/// sealed bytes; an unproven connection says two frames at most. Throws std::runtime_error, which
+/// names the key file, if it can't be read, is too short or may be read by others. Returns
+/// `transport`.
 inline rti::StagedTransport& add_gate(rti::StagedTransport& transport, const GateSettings& settings,
                                       const rti::TransportStage::Clock& now_s) {
+  if (!settings.key_file.empty())
+    transport.add<rti::Guard>(
+        rti::SharedKey::load(settings.key_file),
+        rti::GuardSettings{.role = settings.role, .federation = settings.federation}, now_s);
   if (settings.rate_limit.bytes_per_s > 0.0 || settings.rate_limit.frames_per_s > 0.0) {
     rti::RateLimit limit = settings.rate_limit;
     limit.last_words =
         rti::framed(rti::ExpelledMessage{rti::to_string(rti::CloseReason::too_fast)});
     transport.add<rti::RateLimiter>(limit, now_s);
   }
-  if (!settings.key_file.empty())
-    transport.add<rti::Guard>(
-        rti::SharedKey::load(settings.key_file),
-        rti::GuardSettings{.role = settings.role, .federation = settings.federation}, now_s);
   return transport;
 }
 

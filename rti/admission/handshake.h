@@ -28,8 +28,10 @@ class Handshake {
   /// After `failed`: a sentence for a user.
   const std::string& why() const { return why_; }
   /// Takes no more than the handshake's bytes from the front of `bytes`, which may be cut anywhere;
-  /// what is left after the proof belongs to the user of the connection.
+  /// what is left after the proof is sealed.
   State receive(Bytes& bytes);
+  /// After `proven`: the key under which `sender` seals what follows.
+  SessionKey session_key(Role sender) const { return key_.session_key(sender, basis()); }
   Bytes outgoing() const { return outgoing_; }
   void clear_outgoing() { outgoing_.clear(); }
 

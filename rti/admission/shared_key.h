@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "rti/admission/seal.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
@@ -27,21 +28,27 @@ struct ProofBasis {
   std::string_view federation;  ///< at most 255 bytes
 };
 
-/// Proofs are BLAKE2b keyed with the secret's own BLAKE2b, 32 bytes (libsodium's generichash);
-/// compared in constant time. The key is never sent.
+/// Made of the secret by scrypt (RFC 7914) with N = 2^15, r = 8, p = 1: who guesses secrets needs
+/// 32 MiB and some 0.1 s for each. Proofs and session keys are BLAKE2b keyed with it, 32 bytes
+/// (libsodium's generichash), compared in constant time. The key is never sent.
 class SharedKey {
  public:
   static constexpr std::size_t secret_size_min = 16;  ///< bytes
   /// Throws std::invalid_argument if the secret is shorter than `secret_size_min`.
   explicit SharedKey(Bytes secret);
   /// The file's bytes without white space at its end. Throws std::runtime_error, which names the
-  /// file and what is wrong.
+  /// file and what is wrong: others than its owner may read it, too.
   static SharedKey load(const std::filesystem::path& file);
 
   Proof prove(Role role, const ProofBasis& basis) const;
   bool is_proven(Role role, const ProofBasis& basis, const Proof& proof) const;
+  /// The key under which `sender` seals what it says in the conversation of `basis`.
+  SessionKey session_key(Role sender, const ProofBasis& basis) const;
 
  private:
+  std::array<std::byte, 32> derive(std::string_view purpose, Role role,
+                                   const ProofBasis& basis) const;
+
   std::array<std::byte, 32> key_;
 };
 

@@ -1,4 +1,4 @@
-// Closes connections that do not prove themselves.
+// Closes connections that do not prove themselves, and seals what the others carry.
 #include "rti/transport/staged/guard.h"
 
 #include <algorithm>
@@ -21,9 +21,9 @@ Guard::Admission& Guard::admission_of(ConnectionId connection) {
   if (Admission* admission = find(connection)) return *admission;
   admissions_.push_back(std::make_unique<Admission>(
       Admission{connection,
-               now_s_(),
-               Handshake(key_, settings_.role, settings_.federation, draw_nonce()),
-               {}}));
+                now_s_(),
+                Handshake(key_, settings_.role, settings_.federation, draw_nonce()),
+                {}}));
   return *admissions_.back();
 }
 
@@ -49,11 +49,14 @@ void Guard::refuse(Admission& admission) {
 void Guard::admit(ConnectionId connection) {
   assert(find(connection) != nullptr && !find(connection)->is_refused);
   const std::vector<std::byte> pending = std::move(find(connection)->pending);
+  const Handshake& handshake = find(connection)->handshake;
+  const Role own = settings_.role, other = own == Role::rti ? Role::federate : Role::rti;
+  sessions_.emplace(connection, Session{Seal(handshake.session_key(own)),
+                                        SealReader(handshake.session_key(other))});
   forget(connection);
   if (connection >= is_known_.size()) is_known_.resize(connection + 1);
   is_known_[connection] = true;
-  if (const Bytes waiting = pending; !waiting.empty())
-    TransportStage::send(connection, std::span(&waiting, 1));
+  if (const Bytes waiting = pending; !waiting.empty()) send(connection, std::span(&waiting, 1));
   TransportStage::on_open(connection);
 }
 
@@ -65,19 +68,71 @@ void Guard::on_open(ConnectionId connection) {
 
 void Guard::on_bytes(ConnectionId connection, Bytes bytes) {
   Admission* admission = find(connection);
-  if (admission == nullptr) return TransportStage::on_bytes(connection, bytes);
+  if (admission == nullptr) return open(connection, bytes);
   if (admission->is_refused) return;
   const Handshake::State state = admission->handshake.receive(bytes);
   send_handshake(*admission);
   if (state == Handshake::State::failed) refuse(*admission);
   if (state != Handshake::State::proven) return;
   admit(connection);
-  if (!bytes.empty()) TransportStage::on_bytes(connection, bytes);
+  open(connection, bytes);
+}
+
+Guard::Session* Guard::session_of(ConnectionId connection) {
+  const auto found = sessions_.find(connection);
+  return found == sessions_.end() ? nullptr : &found->second;
+}
+
+void Guard::open(ConnectionId connection, Bytes bytes) {
+  Session* const session = session_of(connection);
+  if (session == nullptr || session->is_broken) return;
+  const Framing framing = session->records.receive(
+      bytes, [] { return seal_record_max; },
+      [&](Bytes record) {
+        if (!session->incoming.open(record, opened_) || opened_.empty()) return false;
+        TransportStage::on_bytes(connection, opened_);
+        return true;
+      });
+  if (framing == Framing::sound) return;
+  session->is_broken = true;
+  close(connection);
+}
+
+void Guard::on_datagram(ConnectionId connection, Bytes datagram) {
+  Session* const session = session_of(connection);
+  if (session != nullptr && session->incoming.open_datagram(datagram, opened_))
+    TransportStage::on_datagram(connection, opened_);
+  else ++rejected_datagrams_;
+}
+
+std::size_t Guard::datagram_max(ConnectionId connection) const {
+  const std::size_t most = is_known(connection) ? TransportStage::datagram_max(connection) : 0;
+  return most > datagram_seal_size ? most - datagram_seal_size : 0;
+}
+
+void Guard::send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) {
+  Session* const session = session_of(connection);
+  if (session == nullptr) return;
+  if (sealed_datagrams_.size() < datagrams.size()) sealed_datagrams_.resize(datagrams.size());
+  std::vector<Datagram> sealed;
+  for (std::size_t i = 0; i < datagrams.size(); ++i) {
+    sealed_datagrams_[i].clear();
+    session->outgoing.seal_datagram(datagrams[i], sealed_datagrams_[i]);
+    sealed.push_back({.head = sealed_datagrams_[i], .body = {}});
+  }
+  TransportStage::send_datagrams(connection, sealed);
 }
 
 void Guard::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {
   const Admission* admission = find(connection);
-  if (admission == nullptr) return TransportStage::on_close(connection, reason, detail);
+  if (admission == nullptr) {
+    const Session* const session = session_of(connection);
+    const bool was_broken = session != nullptr && session->is_broken;
+    sessions_.erase(connection);
+    if (!was_broken) return TransportStage::on_close(connection, reason, detail);
+    return TransportStage::on_close(connection, CloseReason::failed,
+                                    "what came was altered on its way, or not sealed by our key");
+  }
   const std::string why = admission->handshake.why();
   const bool was_open = admission->is_open, was_refused = admission->is_refused;
   forget(connection);
@@ -105,7 +160,13 @@ void Guard::poll(std::chrono::nanoseconds longest_wait, TransportListener& liste
 }
 
 void Guard::send(ConnectionId connection, std::span<const Bytes> parts) {
-  if (is_known(connection)) return TransportStage::send(connection, parts);
+  if (Session* const session = session_of(connection)) {
+    sealed_.clear();
+    session->outgoing.seal(parts, sealed_);
+    const Bytes sealed = sealed_.bytes();
+    return TransportStage::send(connection, std::span(&sealed, 1));
+  }
+  if (is_known(connection)) return;         // it has closed
   if (settings_.role == Role::rti) return;  // its user does not know it
   Admission& admission = admission_of(connection);
   for (const Bytes part : parts)

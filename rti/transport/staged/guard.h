@@ -1,9 +1,10 @@
 // Admits only connections to the RTI, or to a federate, whose other end has proven that it has the
-// shared key.
+// shared key, and seals all that passes afterwards.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "rti/admission/handshake.h"
@@ -21,29 +22,27 @@ struct GuardSettings {
 /// Holds a handshake on each connection (rti/admission/handshake.h). The connection opens for the
 /// user once both ends have proven themselves. One that does not is closed, unnoticed by the user
 /// at the RTI's end, with `failed` and a reason at the federate's. Afterwards bytes and datagrams
-/// pass unchanged. Bytes that a federate sends before the proof wait for it.
+/// are encrypted and authenticated (rti/admission/seal.h): a connection with altered, missing or
+/// repeated bytes ends with `failed` at both ends, such datagrams are dropped and counted. Bytes
+/// that a federate sends before the proof wait for it.
 class Guard final : public TransportStage {
  public:
   Guard(const SharedKey& key, GuardSettings settings, Clock now_s);
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
-  std::size_t datagram_max(ConnectionId connection) const override {
-    return is_known(connection) ? TransportStage::datagram_max(connection) : 0;
-  }
-  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override {
-    if (is_known(connection)) TransportStage::send_datagrams(connection, datagrams);
-  }
+  std::size_t datagram_max(ConnectionId connection) const override;
+  void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
 
   /// Unproven connections closed so far.
   std::uint64_t refused() const { return refused_; }
+  /// Datagrams dropped so far: altered, repeated or of strangers.
+  std::uint64_t rejected_datagrams() const { return rejected_datagrams_; }
 
  private:
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;
-  void on_datagram(ConnectionId connection, Bytes datagram) override {
-    if (is_known(connection)) TransportStage::on_datagram(connection, datagram);
-  }
+  void on_datagram(ConnectionId connection, Bytes datagram) override;
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
 
   struct Admission {
@@ -53,6 +52,14 @@ class Guard final : public TransportStage {
     std::vector<std::byte> pending;  ///< to be sent to it once it is proven
     bool is_open = false, is_refused = false;
   };
+  /// A proven connection.
+  struct Session {
+    Seal outgoing;
+    SealReader incoming;
+    FrameReader records{};
+    bool is_broken = false;
+  };
+  Session* session_of(ConnectionId connection);
   bool is_known(ConnectionId connection) const {
     return connection < is_known_.size() && is_known_[connection];
   }
@@ -62,13 +69,18 @@ class Guard final : public TransportStage {
   void send_handshake(Admission& admission);
   void refuse(Admission& admission);
   void admit(ConnectionId connection);
+  void open(ConnectionId connection, Bytes bytes);
 
   SharedKey key_;
   GuardSettings settings_;
   Clock now_s_;
   std::vector<std::unique_ptr<Admission>> admissions_;
   std::vector<bool> is_known_;  ///< by connection: proven
-  std::uint64_t refused_ = 0;
+  std::unordered_map<ConnectionId, Session> sessions_;
+  FrameWriter sealed_{seal_record_max};
+  std::vector<std::byte> opened_;
+  std::vector<std::vector<std::byte>> sealed_datagrams_;
+  std::uint64_t refused_ = 0, rejected_datagrams_ = 0;
 };
 
 }  // namespace rink::rti

@@ -189,17 +189,64 @@ TEST(Admission, RandomBytesGetNoMoreThanTheyAre) {
   }
 }
 
-TEST(Admission, KeyFilesAreReadWithoutTheirLastLineEndAndRefusedIfShort) {
+std::string fault_of(const std::filesystem::path& file) {
+  try {
+    SharedKey::load(file);
+  } catch (const std::runtime_error& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(Admission, KeyFilesAreReadWithoutTheirLastLineEndAndRefusedIfShortOrOpenToOthers) {
   const test::TemporaryFolder folder("key");
   const std::filesystem::path file = folder / "harbour.key";
   std::ofstream(file) << "the harbour's own secret\n";
+  using std::filesystem::perms;
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
   EXPECT_EQ(SharedKey::load(file).prove(Role::rti, basis), ours().prove(Role::rti, basis));
+  for (const perms others : {perms::group_read, perms::others_read}) {
+    std::filesystem::permissions(file, perms::owner_read | perms::owner_write | others);
+    EXPECT_EQ(fault_of(file),
+              file.string() + ": others may read this key; chmod 600 " + file.string());
+  }
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   std::ofstream(file) << "short\n";
   EXPECT_THROW(SharedKey::load(file), std::runtime_error);
   std::filesystem::remove(file);
   EXPECT_THROW(SharedKey::load(file), std::runtime_error);
 }
+
+TEST(Admission, EachDirectionOfEachConversationHasAKeyOfItsOwn) {
+  const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
+  const SessionKey up = ours().session_key(Role::federate, basis),
+                   down = ours().session_key(Role::rti, basis);
+  EXPECT_NE(up, down);
+  EXPECT_NE(up, ours().session_key(Role::federate, {nonce_of(3), nonce_of(2), "rink"}));
+  EXPECT_NE(up, ours().session_key(Role::federate, {nonce_of(1), nonce_of(3), "rink"}));
+  EXPECT_NE(up, another().session_key(Role::federate, basis));
+  EXPECT_NE(up, ours().prove(Role::federate, basis)) << "which anybody may hear";
+}
+
+/// Somebody on the way, who hears all and alters one bit of what comes down.
+struct Meddler final : TransportStage {
+  std::string heard;
+  std::size_t come = 0, alters = ~std::size_t{0};  ///< bytes; the number of the altered one
+  void send(ConnectionId connection, std::span<const Bytes> parts) override {
+    for (const Bytes part : parts)
+      heard.append(reinterpret_cast<const char*>(part.data()), part.size());
+    TransportStage::send(connection, parts);
+  }
+
+ private:
+  void on_bytes(ConnectionId connection, Bytes bytes) override {
+    std::vector<std::byte> passed(bytes.begin(), bytes.end());
+    if (alters - come < passed.size()) passed[alters - come] ^= std::byte{16};
+    come += passed.size();
+    TransportStage::on_bytes(connection, passed);
+  }
+};
 
 /// An RTI and a federate on a carrier, each with a key or none.
 class Gate {
@@ -215,6 +262,7 @@ class Gate {
     if (rtis != nullptr)
       guard_ = &at_rti_->add<Guard>(*rtis, GuardSettings{}, [this] { return now; });
     client_ = &at_federate_.emplace(client);
+    meddler = &at_federate_->add<Meddler>();
     if (federates != nullptr)
       at_federate_->add<Guard>(*federates, GuardSettings{.role = Role::federate},
                                [this] { return now; });
@@ -236,6 +284,7 @@ class Gate {
     }
   }
   double now = 0.0;
+  Meddler* meddler = nullptr;  ///< between the federate and its guard
   Recorder heard;
   Ambassador ambassador{harbour(), heard};
   const FederateLink& link() const { return *link_; }
@@ -267,6 +316,26 @@ TEST_P(Admissions, WhoHasTheKeyJoinsAsEver) {
   scene.run();
   EXPECT_TRUE(scene.ambassador.is_joined());
   EXPECT_EQ(scene.refused(), 0u);
+  EXPECT_EQ(scene.meddler->heard.find("ferry"), std::string::npos) << "it is sealed";
+}
+
+TEST_P(Admissions, WhoHearsAnAlteredByteAfterwardsLeavesAndSaysWhy) {
+  Gate sound(GetParam(), &ours(), &ours());
+  sound.ambassador.join("rink", "ferry", "tester");
+  sound.run();
+  const std::size_t size = sound.meddler->come;
+  const std::size_t admission = 2 * (frame_header_size + 33);
+  ASSERT_GT(size, admission + frame_header_size);
+  for (std::size_t at = admission + frame_header_size; at < size; at += 7) {
+    Gate scene(GetParam(), &ours(), &ours());
+    scene.meddler->alters = at;
+    scene.ambassador.join("rink", "ferry", "tester");
+    scene.run();
+    ASSERT_TRUE(scene.link().is_finished()) << at << " of " << size;
+    EXPECT_EQ(scene.link().close_reason(), CloseReason::failed);
+    EXPECT_EQ(scene.heard.lost, "what came was altered on its way, or not sealed by our key");
+    EXPECT_EQ(scene.execution().federate_count(), 0u);
+  }
 }
 
 TEST_P(Admissions, WhoHasNoneIsToldSoInNoMoreBytesThanTheySent) {

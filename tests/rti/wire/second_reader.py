@@ -577,6 +577,15 @@ def frames_of(stream):
         at += 4 + length
 
 
+def plain_frames_of(stream, admission, direction):
+    """Those after a proof that is good are within sealed records."""
+    frames = frames_of(stream)
+    for frame in frames:
+        yield frame
+        if frame[:1] in (b"\x3b", b"\x77") and admission.is_proven:
+            yield from frames_of(admission.opened(direction, list(frames)))
+
+
 def read_frame(frame, model, connection, direction):
     reader, lines = Reader(frame, model, connection), []
     table = UP if direction == "u" else DOWN
@@ -607,7 +616,7 @@ def main(model_path, session_path, key_path=None):
             read_frame(first, model, connections[number], direction)
     for (number, direction), stream in sorted(streams.items()):
         connection = connections[number]
-        for frame in frames_of(stream):
+        for frame in plain_frames_of(stream, connection.admission, direction):
             is_counted = connection.frames[direction] > 0 or frame[0] in (1, 64)  # from the one that asks to join, or lets in, on
             connection.frames[direction] += is_counted
             for line in read_frame(frame, model, connection, direction):

@@ -411,7 +411,8 @@ class Admission:
     """Both ends' nonces and what they prove."""
 
     def __init__(self, secret):
-        self.key = hashlib.blake2b(secret.rstrip(b" \t\n\v\f\r"), digest_size=32).digest() if secret else None
+        self.key = hashlib.scrypt(secret.rstrip(b" \t\n\v\f\r"), salt=b"rink key 2", n=1 << 15, r=8, p=1, maxmem=1 << 26, dklen=32) if secret else None
+        self.is_proven = False
         self.version = self.federation = self.federate = self.rti = None
 
     def hello(self, reader):
@@ -423,10 +424,49 @@ class Admission:
         return ["challenge"]
 
     def proof(self, reader, who):
+        self.is_proven = reader.take(32) == self.derived(b"rink admission 2", who)
+        return ["%s %s" % (("", "proof", "admitted")[who], "good" if self.is_proven else "bad")]
+
+    def derived(self, purpose, who):
         name = self.federation.encode()
-        text = b"rink admission 1" + bytes([who]) + struct.pack("<HB", self.version, len(name)) + self.federate + self.rti + name
-        good = hashlib.blake2b(text, digest_size=32, key=self.key).digest()
-        return ["%s %s" % (("", "proof", "admitted")[who], "good" if reader.take(32) == good else "bad")]
+        text = purpose + bytes([who]) + struct.pack("<HB", self.version, len(name)) + self.federate + self.rti + name
+        return hashlib.blake2b(text, digest_size=32, key=self.key).digest()
+
+    def opened(self, direction, records):
+        """The stream within sealed records."""
+        key = self.derived(b"rink session 2", 1 if direction == "u" else 2)
+        return b"".join(open_sealed(key, struct.pack("<IQ", 0, number), record) for number, record in enumerate(records))
+
+
+def chacha_block(key, count, nonce):
+    """RFC 8439, 2.3."""
+    start = list(struct.unpack("<4I8I4I", b"expand 32-byte k" + key + struct.pack("<I", count) + nonce))
+    state = start[:]
+    turn = lambda value, by: (value << by | value >> 32 - by) & 0xffffffff
+    for _ in range(10):
+        for a, b, c, d in ((0, 4, 8, 12), (1, 5, 9, 13), (2, 6, 10, 14), (3, 7, 11, 15), (0, 5, 10, 15), (1, 6, 11, 12), (2, 7, 8, 13), (3, 4, 9, 14)):
+            for x, y, z, by in ((a, b, d, 16), (c, d, b, 12), (a, b, d, 8), (c, d, b, 7)):
+                state[x] = (state[x] + state[y]) & 0xffffffff
+                state[z] = turn(state[z] ^ state[x], by)
+    return struct.pack("<16I", *((a + b) & 0xffffffff for a, b in zip(start, state)))
+
+
+def poly1305(key, text):
+    """RFC 8439, 2.5."""
+    r, s = int.from_bytes(key[:16], "little") & 0x0ffffffc0ffffffc0ffffffc0fffffff, int.from_bytes(key[16:32], "little")
+    sum_ = 0
+    for at in range(0, len(text), 16):
+        sum_ = (sum_ + int.from_bytes(text[at:at + 16] + b"\1", "little")) * r % ((1 << 130) - 5)
+    return ((sum_ + s) % (1 << 128)).to_bytes(16, "little")
+
+
+def open_sealed(key, nonce, sealed):
+    """RFC 8439, 2.8, without further data."""
+    text, tag = sealed[:-16], sealed[-16:]
+    judged = text + bytes(-len(text) % 16) + struct.pack("<QQ", 0, len(text))
+    assert poly1305(chacha_block(key, 0, nonce), judged) == tag, "a record is not sealed by the key"
+    stream = b"".join(chacha_block(key, 1 + block, nonce) for block in range((len(text) + 63) // 64))
+    return bytes(a ^ b for a, b in zip(text, stream))
 
 
 # Datagrams
