@@ -101,14 +101,14 @@ CROWD = [  # part, filter, policy, extrapolate, in words
 def crowd_table(folder):
     """The table and the sentences at the head of README.md, of the default experiment's report in `folder`."""
     summary = rows_of(folder / "summary.csv")
-    lines = ["| filter | update policy | payload, kB/s | on the wire, kB/s | recall | displayed error, mm |", "|---|---|---|---|---|---|"]
+    lines = ["|filter|update policy|payload, kB/s|on the wire, kB/s|recall|displayed error, mm|", "|---|---|---|---|---|---|"]
     for part, scheme, policy, extrapolates, words in CROWD:
         found = [row for row in summary if (row["part"], row["scheme"], row["policy"], row["extrapolate"]) == (part, scheme, policy, extrapolates)]
         if len(found) != 1:
             raise Failure(f"{folder.name}/summary.csv has {len(found)} rows of {scheme}, {policy} in the part {part}")
         row = found[0]
-        lines.append(f"| `{scheme}` | {words} | {three_digits(float(row['down_bytes_per_client_per_s_mean']) / 1e3)} | {three_digits(float(row['wire_bytes_per_client_per_s_mean']) / 1e3)} | "
-                     f"{four_decimals(row['delivered_recall_mean'])} | {three_digits(row['displayed_error_mm_rms_mean'])} |")
+        lines.append(f"|`{scheme}`|{words}|{three_digits(float(row['down_bytes_per_client_per_s_mean']) / 1e3)}|{three_digits(float(row['wire_bytes_per_client_per_s_mean']) / 1e3)}|"
+                     f"{four_decimals(row['delivered_recall_mean'])}|{three_digits(row['displayed_error_mm_rms_mean'])}|")
     return lines + ["", *equal_error_lines(folder)]
 
 
