@@ -33,8 +33,9 @@ void hear_endings(rti::Ranks& ranks, Endings& endings) {
 /// Who ended only because another one had ends with the status of that one.
 int shared_status(int own, const Endings& endings) {
   if (own != lost) return own;
-  const auto cause = std::ranges::find_if(
-      endings, [](const std::optional<int>& other) { return other != 0 && other != lost; });
+  const auto cause = std::ranges::find_if(endings, [](const std::optional<int>& other) {
+    return other && *other != 0 && *other != lost;
+  });
   return cause == endings.end() ? own : cause->value_or(own);
 }
 
