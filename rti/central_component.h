@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -29,6 +30,9 @@ class Outlet {
   virtual void drop(ConnectionId connection, std::string_view why) = 0;
 };
 
+/// For so long a stranger may take a file that others wait for [s].
+inline constexpr double stranger_due_s = 1.0;
+
 /// Bytes and time in, bytes out; no I/O, no clock, no thread. A tick is any number of `receive`,
 /// then `match`, then `flush`.
 class CentralComponent {
@@ -40,6 +44,9 @@ class CentralComponent {
   /// A whole datagram of a federate; datagrams may arrive in any order, twice or never.
   virtual void receive_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
   virtual void disconnect(ConnectionId connection, std::string_view why) = 0;
+  /// Of the connections that have not joined for `stranger_due_s` or longer the oldest, which goes
+  /// first where files run short.
+  virtual std::optional<ConnectionId> oldest_stranger() const { return std::nullopt; }
   /// `now` [s] never decreases.
   virtual void advance_clock(double now) = 0;
   virtual void match() = 0;

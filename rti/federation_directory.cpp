@@ -88,7 +88,17 @@ void FederationDirectory::connect(ConnectionId id) {
   if (id >= connections_.size()) connections_.resize(id + 1);
   connections_[id] = {};
   connections_[id].is_connected = true;
-  connections_[id].last_received = now_;
+  connections_[id].since = connections_[id].last_received = now_;
+}
+
+std::optional<ConnectionId> FederationDirectory::oldest_stranger() const {
+  std::optional<ConnectionId> oldest;
+  for (ConnectionId id = 0; id < connections_.size(); ++id)
+    if (connections_[id].is_connected && connections_[id].execution == nullptr &&
+        now_ - connections_[id].since >= stranger_due_s &&
+        (!oldest || connections_[id].since < connections_[*oldest].since))
+      oldest = id;
+  return oldest;
 }
 
 void FederationDirectory::receive(ConnectionId id, Bytes bytes) {

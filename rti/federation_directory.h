@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,7 @@ class FederationDirectory final : public CentralComponent {
   void receive(ConnectionId connection, Bytes bytes) override;
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
+  std::optional<ConnectionId> oldest_stranger() const override;
   void advance_clock(double now) override;
   void match() override;
   void flush(Outlet& outlet) override;
@@ -58,7 +60,7 @@ class FederationDirectory final : public CentralComponent {
     FederationExecution* execution = nullptr;  ///< null until it asks to join one
     std::vector<std::byte> waiting;            ///< bytes received before that which are no whole
                                                ///< frame
-    double last_received = 0.0;
+    double since = 0.0, last_received = 0.0;
     PreJoinLimits limits;
   };
   struct Answer {

@@ -48,6 +48,9 @@ void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagr
 void FederationExecution::disconnect(ConnectionId connection, std::string_view) {
   parts_->connections.disconnect(connection);
 }
+std::optional<ConnectionId> FederationExecution::oldest_stranger() const {
+  return parts_->connections.oldest_stranger();
+}
 void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
 
 void FederationExecution::match() { parts_->match(); }

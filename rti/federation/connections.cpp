@@ -16,7 +16,17 @@ void Connections::connect(ConnectionId id) {
   if (id >= connections_.size()) connections_.resize(id + 1);
   connections_[id] = {};
   connections_[id].phase = Phase::connected;
-  connections_[id].last_received = basis_.now;
+  connections_[id].since = connections_[id].last_received = basis_.now;
+}
+
+std::optional<ConnectionId> Connections::oldest_stranger() const {
+  std::optional<ConnectionId> oldest;
+  for (ConnectionId id = 0; id < connections_.size(); ++id)
+    if (connections_[id].phase == Phase::connected &&
+        basis_.now - connections_[id].since >= stranger_due_s &&
+        (!oldest || connections_[id].since < connections_[*oldest].since))
+      oldest = id;
+  return oldest;
 }
 
 void Connections::disconnect(ConnectionId id) {

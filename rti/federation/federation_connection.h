@@ -18,7 +18,7 @@ struct FederationConnection {
   std::uint32_t federate = 0;  ///< slot, once joined
   bool has_spoken = false;     ///< since the last `advance_clock`
   PreJoinLimits limits;
-  double last_received = 0.0;
+  double since = 0.0, last_received = 0.0;
   FrameReader reader;
 };
 

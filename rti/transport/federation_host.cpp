@@ -39,6 +39,7 @@ class FederationHost::Port final : public TransportListener {
     assert(connection < numbers_.size() && numbers_[connection] != nobody);
     host_.core_.receive_datagram(numbers_[connection], datagram);
   }
+  bool on_shortage() override { return host_.make_room(); }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
     has_received_ = true;
     if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
@@ -105,6 +106,15 @@ ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
   routes_[number] = {&port, connection};
   core_.connect(number);
   return number;
+}
+
+bool FederationHost::make_room() {
+  const std::optional<ConnectionId> stranger = core_.oldest_stranger();
+  if (!stranger) return false;
+  const Route& route = routes_[*stranger];
+  core_.disconnect(*stranger, "others wait");
+  route.port->transport().close(route.connection);
+  return true;
 }
 
 void FederationHost::poll(std::chrono::nanoseconds longest_wait) {

@@ -47,6 +47,8 @@ class FederationHost {
     ConnectionId connection = 0;  ///< the transport's number
   };
   ConnectionId admit(Port& port, ConnectionId connection);
+  /// Closes the oldest stranger's connection, if there is one.
+  bool make_room();
 
   CentralComponent& core_;
   std::vector<std::unique_ptr<Port>> ports_;

@@ -45,6 +45,9 @@ class TransportListener {
   /// One whole datagram of the connection's peer, in any order with other messages, and perhaps
   /// twice. Valid during the call.
   virtual void on_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
+  /// No file is left for a connection that waits to be accepted. True if the listener has closed
+  /// one to make room.
+  virtual bool on_shortage() { return false; }
 };
 
 /// Payload as counted here, and the kernel's counts of the same connection where it has them

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "rti/central_component.h"
+
 namespace rink::rti {
 
 Guard::Guard(const SharedKey& key, GuardSettings settings, Clock now_s)
@@ -103,6 +105,14 @@ void Guard::on_datagram(ConnectionId connection, Bytes datagram) {
   if (session != nullptr && session->incoming.open_datagram(datagram, opened_))
     TransportStage::on_datagram(connection, opened_);
   else ++rejected_datagrams_;
+}
+
+/// Who has been unproven for longest goes first; all of them before any that is proven.
+bool Guard::on_shortage() {
+  for (const auto& each : admissions_)
+    if (each->is_open && !each->is_refused && now_s_() - each->since >= stranger_due_s)
+      return refuse(*each), true;
+  return TransportStage::on_shortage();
 }
 
 std::size_t Guard::datagram_max(ConnectionId connection) const {

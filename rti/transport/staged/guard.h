@@ -43,6 +43,7 @@ class Guard final : public TransportStage {
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;
   void on_datagram(ConnectionId connection, Bytes datagram) override;
+  bool on_shortage() override;
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
 
   struct Admission {

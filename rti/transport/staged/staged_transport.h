@@ -62,6 +62,7 @@ class TransportStage : public Transport, protected TransportListener {
   void on_datagram(ConnectionId connection, Bytes datagram) override {
     above_->on_datagram(connection, datagram);
   }
+  bool on_shortage() override { return above_->on_shortage(); }
 
   /// For a stage that does not change what arrives: events of the transport below go straight to
   /// the listener.

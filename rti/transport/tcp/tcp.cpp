@@ -71,6 +71,14 @@ tcp::endpoint resolve(const std::string& address, std::uint16_t port) {
   return found.begin()->endpoint();
 }
 
+/// As far as this process may. False if it is there.
+bool raise_file_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return false;
+  limit.rlim_cur = limit.rlim_max;
+  return setrlimit(RLIMIT_NOFILE, &limit) == 0;
+}
+
 }  // namespace
 
 TcpTransport::TcpTransport(const TcpSettings& settings)
@@ -133,7 +141,10 @@ void TcpTransport::accept(std::size_t listening) {
   for (std::size_t accepted = 0; accepted < accepted_per_event; ++accepted) {
     File file(
         ::accept4(listening_[listening].number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    if (!file && (errno == EMFILE || errno == ENFILE)) return accept_later();
+    if (!file && (errno == EMFILE || errno == ENFILE)) {
+      if (raise_file_limit() || listener_->on_shortage()) continue;
+      return accept_later();
+    }
     if (!file) return;  // none is left, or the peer gave up before the accept
     Peer& peer = add(std::move(file));
     readiness_.watch(peer.file.number(), peer.id, false);
@@ -141,15 +152,8 @@ void TcpTransport::accept(std::size_t listening) {
   }
 }
 
+/// The waiting connection would wake every poll at once: pauses until another closes.
 void TcpTransport::accept_later() {
-  // The waiting connection would wake every poll at once: raise the limit, or pause until another
-  // connection closes.
-  rlimit limit{};
-  if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < limit.rlim_max) {
-    limit.rlim_cur = limit.rlim_max;
-    setrlimit(RLIMIT_NOFILE, &limit);
-    return;
-  }
   for (std::size_t i = 0; i < listening_.size(); ++i)
     readiness_.change(listening_[i].number(), listener_mark + i, false, false);
   const itimerspec pause{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_nsec = 100'000'000}};
