@@ -149,6 +149,9 @@ TEST_F(RtiCommand, AdmitsOnlyThoseWithItsKey) {
   const rti::Fom fom = rti::Fom::load(harbour_);
   const std::string key = write("key", std::string(40, 'k')),
                     other = write("other", std::string(40, 'o'));
+  using std::filesystem::perms;
+  for (const std::string& file : {key, other})
+    std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   Process server(
       test::binary_folder() + "/bin/rink-rti",
       {"--fom", harbour_, "--listen", "127.0.0.1:0", "--federation", "harbour", "--key-file", key},
