@@ -29,7 +29,7 @@ void PlayerRecorder::note_commit(double instant_s, double matched_s) {
   for (const std::uint32_t body : scope_)
     matched_.push_back(interest_.position_at(body, matched_s_));
   for (const PeerReplicas::Received& received : interest_.replicas().received())
-    received_.push_back({instant_s, received});
+    received_.emplace_back(instant_s, received);
   interest_.replicas().forget_received();
   std::erase_if(received_,
                 [&](const auto& received) { return received.first <= instant_s - 2.0 * window_s; });

@@ -180,6 +180,7 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
   for (const InputEvent& event : keys)
     if (event.time <= until)
       players[event.player].press(event.key, event.kind == InputKind::key_down);
+  hands.reserve(players.size());
   for (const BatController& player : players) hands.push_back(&player);
   std::vector<Entity> all(start_.entities().begin(), start_.entities().end());
   for (auto number = static_cast<std::uint32_t>(all.size()); number < forgotten_; ++number)
