@@ -1,6 +1,9 @@
 // Writes records under the first free number, those of matches that go on again and again.
 #include "game/control/match_records.h"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -10,15 +13,6 @@
 #include "game/model/system_reason.h"
 
 namespace rink::game {
-namespace {
-
-/// Where a record is written before it takes the place of `file`.
-std::filesystem::path beside_of(const std::filesystem::path& file) {
-  return file.parent_path() / ("." + file.filename().string());
-}
-
-}  // namespace
-
 void MatchRecords::require_writable() const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -35,42 +29,50 @@ void MatchRecords::require_writable() const {
                      ": records of matches cannot be written to this folder: " + reason);
 }
 
-/// Takes the first number that no match has, by a file beside the record of which nobody else can
-/// make a second; the record itself is not there before it is whole.
-void MatchRecords::take_number() {
+/// Gives the whole record the first name that nobody has: no link replaces a file.
+void MatchRecords::place(const std::filesystem::path& whole) {
+  std::error_code error;
   while (open_.empty()) {
     const std::filesystem::path file = folder_ / ("match-" + std::to_string(next_++) + ".keys");
-    if (std::filesystem::exists(std::filesystem::symlink_status(file))) continue;
-    const std::filesystem::path beside = beside_of(file);
-    errno = 0;
-    std::FILE* const fresh = std::fopen(beside.c_str(), "wbx");  // only if nobody has it
-    if (fresh != nullptr) {
-      std::fclose(fresh);
-      // Another may have put its record there since it was looked for.
-      std::error_code ignored;
-      if (std::filesystem::exists(std::filesystem::symlink_status(file)))
-        std::filesystem::remove(beside, ignored);
-      else open_ = file;
-    } else if (errno != EEXIST) {
-      throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
+    std::filesystem::create_hard_link(whole, file, error);
+    if (!error) {
+      open_ = file;
+    } else if (error != std::errc::file_exists) {
+      // A file system without links: an empty file takes the name meanwhile.
+      errno = 0;
+      std::FILE* const fresh = std::fopen(file.c_str(), "wbx");  // only if nobody has it
+      if (fresh != nullptr) {
+        std::fclose(fresh), open_ = file;
+        return replace(whole);
+      }
+      if (errno != EEXIST)
+        throw SceneError(file.string() + ": cannot be written: " + system_reason(errno));
     }
   }
+  std::filesystem::remove(whole, error);
 }
 
-/// Beside it first, and then in its place at once, so that none is ever half written.
-void MatchRecords::write_open(const KeyLog& log) {
-  require_writable();
-  take_number();
-  const std::filesystem::path whole = beside_of(open_);
+void MatchRecords::replace(const std::filesystem::path& whole) {
   std::error_code error;
+  std::filesystem::rename(whole, open_, error);
+  if (error) throw SceneError(open_.string() + ": cannot be written: " + error.message());
+}
+
+/// Beside its place first, so that none is ever half written, by a name that no other program's
+/// has.
+void MatchRecords::write_open(const KeyLog& log) {
+  static std::atomic<std::uint64_t> count = 0;
+  require_writable();
+  const std::filesystem::path whole =
+      folder_ / (".match-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
   try {
     write_packed_key_log(whole, log);
-    std::filesystem::rename(whole, open_, error);
-    if (error) throw SceneError(open_.string() + ": cannot be written: " + error.message());
+    if (open_.empty()) place(whole);
+    else replace(whole);
   } catch (const SceneError&) {
     std::error_code ignored;
     std::filesystem::remove(whole, ignored);
-    if (!open_until_) open_.clear();
+    if (!open_until_ && !open_.empty()) std::filesystem::remove(open_, ignored), open_.clear();
     throw;
   }
   open_until_ = log.until;

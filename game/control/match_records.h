@@ -36,7 +36,8 @@ class MatchRecords {
 
  private:
   void require_writable() const;
-  void take_number();
+  void place(const std::filesystem::path& whole);
+  void replace(const std::filesystem::path& whole);
   void write_open(const KeyLog& log);
   template <class Attempt>
   std::optional<std::string> first_error(Attempt attempt);

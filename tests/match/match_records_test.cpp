@@ -100,6 +100,35 @@ TEST_F(RecordsOfMatches, AreThereAsTheMatchGoesOnButForItsLastSecond) {
     EXPECT_THAT(entry.path().filename().string(), testing::StartsWith("match-"));
 }
 
+TEST_F(RecordsOfMatches, OfManyWritersInOneFolderAreAllKept) {
+  const KeyLog log = local_match(1.0);
+  constexpr int writers = 4, matches = 30;
+  std::vector<std::thread> threads;
+  std::atomic<int> failures = 0;
+  for (int i = 0; i < writers; ++i)
+    threads.emplace_back([&] {
+      MatchRecords records(folder);
+      for (int match = 0; match < matches; ++match)
+        for (double now_s = 10.0 * match; now_s < 10.0 * match + 3.0; ++now_s) {
+          const auto so_far = [&] {
+            KeyLog part = log;
+            part.until = *log.until + now_s;  // something new
+            return part;
+          };
+          failures += records.follow(now_s, so_far).has_value();
+          if (now_s == 10.0 * match + 2.0) failures += records.keep(log).has_value();
+        }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(failures, 0);
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    ++count;
+    EXPECT_EQ(read_key_log(entry.path()).hash, log.hash) << entry.path();
+  }
+  EXPECT_EQ(count, writers * matches);
+}
+
 /// A reader beside the writer, as somebody who copies records while a server runs.
 TEST_F(RecordsOfMatches, AreWholeWheneverTheyAreThere) {
   const KeyLog log = local_match(1.0);
