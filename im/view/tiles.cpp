@@ -22,7 +22,7 @@ class TileDistance {
   explicit TileDistance(const FilterSettings& settings)
       : cells_(settings), steps_(static_cast<int>(settings.tile_steps)) {
     for (const Disc& post : settings.posts)
-      if (2.0 * post.radius > cells_.size())  // others cover no side
+      if (4.0 * post.radius > cells_.size())  // the others cover no side, however it is rounded
         posts_.push_back({plain(post.x), plain(post.y), plain(post.radius)});
   }
 
@@ -39,7 +39,7 @@ class TileDistance {
 
   bool is_near(const MiddleCell& from, double columns, double rows) {
     if (!(std::abs(columns) + std::abs(rows) <= steps_)) return false;
-    if (columns == 0.0 && rows == 0.0) return true;
+    if (posts_.empty() || (columns == 0.0 && rows == 0.0)) return true;
     const Steps& steps = steps_from(from);
     return steps.empty() ||
            steps[index(static_cast<int>(columns), static_cast<int>(rows))] <= steps_;
@@ -49,13 +49,17 @@ class TileDistance {
     return static_cast<std::size_t>((rows + steps_) * (2 * steps_ + 1) + columns + steps_);
   }
 
-  /// Those of tiles that many look from are kept; none are needed where no post is in the way.
+  /// Those of tiles that somebody looks from are kept, 16 MiB of them; none are needed where no
+  /// post is in the way.
   const Steps& steps_from(const MiddleCell& tile) {
     constexpr std::size_t bytes_max = std::size_t{1} << 24;
     const std::pair place{tile.column, tile.row};
     const auto known = known_.find(place);
     if (known != known_.end()) return known->second;
-    if ((known_.size() + 1) * (index(steps_, steps_) + 64) > bytes_max) known_.clear();
+    if ((known_.size() + 1) * (index(steps_, steps_) + 64) > bytes_max) {
+      const auto next = known_.upper_bound(place);
+      known_.erase(next == known_.end() ? known_.begin() : next);
+    }
     return known_[place] = counted(tile);
   }
 

@@ -48,6 +48,19 @@ TEST(Tiles, AreLeftOverSidesThatNoPostCoversWhole) {
   EXPECT_EQ(steps_to(6, 0, {{3.5, 0.5, 1.6}}), 6 + 2 * 2) << "over the second row";
 }
 
+/// Corners in doubles may lie closer together than a cell is wide.
+TEST(Tiles, AreClosedByAPostWhoseDiameterIsASideIfItHoldsBothCorners) {
+  const double low = 0.1, size = 0.7, from = low + 15.0 * size, to = low + 16.0 * size;
+  const Disc post{(from + to) / 2.0, low + 7.0 * size, 0.35};
+  ASSERT_TRUE(post.x - from < post.radius && to - post.x < post.radius) << "the doubles' luck";
+  const auto filter = make_filter(
+      "tiles(steps=1)",
+      {.world = {low, low, low + 30.0, low + 30.0}, .cell_size = size, .posts = {post}});
+  filter->set_subscription_region(0, around(post.x, post.y - 0.3, 5.0));
+  filter->set_update_region(0, point(post.x, post.y + 0.3));
+  EXPECT_TRUE(filter->match().empty());
+}
+
 /// Whoever walks between the posts crosses sides that none covers whole, so that no way is shorter
 /// than the distance.
 TEST(Tiles, AreNoFartherThanAnyWayBetweenPosts) {
