@@ -182,7 +182,7 @@ void Agreement::add_candidates(const Step& step) const {
 void Agreement::balance(const Step& step) const {
   constexpr double tolerance = 1.1, deviations = 3.0;
   const auto& [now, verdicts, next] = step;
-  assert(next.events.size() <= now.slots && next.members.size() > 0);
+  assert(next.events.size() <= now.slots && !next.members.empty());
   next.events.resize(now.slots, 0.0);
   for (const PeerNumber peer : now.members)
     next.events[peer] += static_cast<double>(verdicts.of(peer).events);

@@ -69,6 +69,7 @@ void note_instants(const Share& share, std::uint64_t usual, Verdict& verdict) {
 std::vector<std::uint8_t> parts_of(const std::vector<double>& times, const Window& window) {
   assert(window.end >= window.start);
   std::vector<std::uint8_t> parts;
+  parts.reserve(times.size());
   for (const double time : times)
     parts.push_back(static_cast<std::uint8_t>(
         std::clamp(256.0 * (time - window.start) / (window.end - window.start), 0.0, 255.0)));
@@ -247,6 +248,7 @@ void WindowVerdicts::set_halo(PeerNumber peer) {
   const std::vector<Annex>& announced = verdicts_[peer].annexes;
   if (announced.empty() && halos_.annexes(peer).empty()) return;
   std::vector<Box> annexes;
+  annexes.reserve(announced.size());
   for (const Annex& annex : announced) annexes.push_back(annex.box());
   halos_.set_annexes(peer, std::move(annexes));
 }
