@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -44,9 +45,12 @@ class CentralComponent {
   /// A whole datagram of a federate; datagrams may arrive in any order, twice or never.
   virtual void receive_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
   virtual void disconnect(ConnectionId connection, std::string_view why) = 0;
-  /// Of the connections that have not joined for `stranger_due_s` or longer the oldest, which goes
-  /// first where files run short.
-  virtual std::optional<ConnectionId> oldest_stranger() const { return std::nullopt; }
+  using ConnectionTest = std::function<bool(ConnectionId)>;
+  /// Of the connections that have been there for `stranger_due_s` without joining, and pass the
+  /// test, the oldest: it goes first where files run short.
+  virtual std::optional<ConnectionId> oldest_stranger(const ConnectionTest& /*test*/) const {
+    return std::nullopt;
+  }
   /// `now` [s] never decreases.
   virtual void advance_clock(double now) = 0;
   virtual void match() = 0;

@@ -91,11 +91,11 @@ void FederationDirectory::connect(ConnectionId id) {
   connections_[id].since = connections_[id].last_received = now_;
 }
 
-std::optional<ConnectionId> FederationDirectory::oldest_stranger() const {
+std::optional<ConnectionId> FederationDirectory::oldest_stranger(const ConnectionTest& test) const {
   std::optional<ConnectionId> oldest;
   for (ConnectionId id = 0; id < connections_.size(); ++id)
     if (connections_[id].is_connected && connections_[id].execution == nullptr &&
-        now_ - connections_[id].since >= stranger_due_s &&
+        now_ - connections_[id].since >= stranger_due_s && test(id) &&
         (!oldest || connections_[id].since < connections_[*oldest].since))
       oldest = id;
   return oldest;

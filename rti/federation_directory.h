@@ -45,7 +45,7 @@ class FederationDirectory final : public CentralComponent {
   void receive(ConnectionId connection, Bytes bytes) override;
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
-  std::optional<ConnectionId> oldest_stranger() const override;
+  std::optional<ConnectionId> oldest_stranger(const ConnectionTest& test) const override;
   void advance_clock(double now) override;
   void match() override;
   void flush(Outlet& outlet) override;

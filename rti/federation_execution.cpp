@@ -48,8 +48,8 @@ void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagr
 void FederationExecution::disconnect(ConnectionId connection, std::string_view) {
   parts_->connections.disconnect(connection);
 }
-std::optional<ConnectionId> FederationExecution::oldest_stranger() const {
-  return parts_->connections.oldest_stranger();
+std::optional<ConnectionId> FederationExecution::oldest_stranger(const ConnectionTest& test) const {
+  return parts_->connections.oldest_stranger(test);
 }
 void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
 

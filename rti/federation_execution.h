@@ -52,7 +52,7 @@ class FederationExecution final : public CentralComponent {
   void receive(ConnectionId connection, Bytes bytes) override;
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
-  std::optional<ConnectionId> oldest_stranger() const override;
+  std::optional<ConnectionId> oldest_stranger(const ConnectionTest& test) const override;
   /// `now` [s] never decreases. Drops connections that have been silent for too long.
   void advance_clock(double now) override;
   /// What the host of a federation knows and the filter may use (docs/rti.md, "What a filter knows

@@ -55,8 +55,10 @@ SharedKey SharedKey::load(const std::filesystem::path& file) {
   using std::filesystem::perms;
   std::error_code error;
   const perms granted = std::filesystem::status(file, error).permissions();
-  if (!error && (granted & (perms::group_read | perms::others_read)) != perms::none)
-    throw std::runtime_error(file.string() + ": others may read this key; chmod 600 " +
+  constexpr perms of_others =
+      perms::group_read | perms::group_write | perms::others_read | perms::others_write;
+  if (!error && (granted & of_others) != perms::none)
+    throw std::runtime_error(file.string() + ": others may read or write this key; chmod 600 " +
                              file.string());
   std::ifstream stream(file, std::ios::binary);
   std::string secret((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());

@@ -37,7 +37,7 @@ class SharedKey {
   /// Throws std::invalid_argument if the secret is shorter than `secret_size_min`.
   explicit SharedKey(Bytes secret);
   /// The file's bytes without white space at its end. Throws std::runtime_error, which names the
-  /// file and what is wrong: others than its owner may read it, too.
+  /// file and what is wrong, as that others than its owner may read or write it.
   static SharedKey load(const std::filesystem::path& file);
 
   Proof prove(Role role, const ProofBasis& basis) const;

@@ -19,11 +19,12 @@ void Connections::connect(ConnectionId id) {
   connections_[id].since = connections_[id].last_received = basis_.now;
 }
 
-std::optional<ConnectionId> Connections::oldest_stranger() const {
+std::optional<ConnectionId> Connections::oldest_stranger(
+    const CentralComponent::ConnectionTest& test) const {
   std::optional<ConnectionId> oldest;
   for (ConnectionId id = 0; id < connections_.size(); ++id)
     if (connections_[id].phase == Phase::connected &&
-        basis_.now - connections_[id].since >= stranger_due_s &&
+        basis_.now - connections_[id].since >= stranger_due_s && test(id) &&
         (!oldest || connections_[id].since < connections_[*oldest].since))
       oldest = id;
   return oldest;

@@ -38,7 +38,7 @@ class Connections {
 
   void connect(ConnectionId id);
   void disconnect(ConnectionId id);
-  std::optional<ConnectionId> oldest_stranger() const;
+  std::optional<ConnectionId> oldest_stranger(const CentralComponent::ConnectionTest& test) const;
   void receive(ConnectionId id, Bytes bytes);
   void receive_datagram(ConnectionId id, Bytes datagram);
   /// Drops connections that have been silent for too long.

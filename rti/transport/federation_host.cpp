@@ -39,7 +39,7 @@ class FederationHost::Port final : public TransportListener {
     assert(connection < numbers_.size() && numbers_[connection] != nobody);
     host_.core_.receive_datagram(numbers_[connection], datagram);
   }
-  bool on_shortage() override { return host_.make_room(); }
+  bool on_shortage() override { return host_.make_room(*this); }
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override {
     has_received_ = true;
     if (connection >= numbers_.size() || numbers_[connection] == nobody) return;
@@ -108,10 +108,14 @@ ConnectionId FederationHost::admit(Port& port, ConnectionId connection) {
   return number;
 }
 
-bool FederationHost::make_room() {
-  const std::optional<ConnectionId> stranger = core_.oldest_stranger();
+/// Only one of `port` gives back what that waits for.
+bool FederationHost::make_room(const Port& port) {
+  const std::optional<ConnectionId> stranger = core_.oldest_stranger(
+      [&](ConnectionId connection) { return routes_[connection].port == &port; });
   if (!stranger) return false;
   const Route& route = routes_[*stranger];
+  assert(route.port == &port);
+  ++closed_for_room_;
   core_.disconnect(*stranger, "others wait");
   route.port->transport().close(route.connection);
   return true;

@@ -38,6 +38,8 @@ class FederationHost {
 
   /// Sum over the transports' connections, closed ones included.
   std::uint64_t closed_by_full_queue() const { return closed_by_full_queue_; }
+  /// Strangers' connections closed where files ran short.
+  std::uint64_t closed_for_room() const { return closed_for_room_; }
 
  private:
   class Port;
@@ -47,14 +49,14 @@ class FederationHost {
     ConnectionId connection = 0;  ///< the transport's number
   };
   ConnectionId admit(Port& port, ConnectionId connection);
-  /// Closes the oldest stranger's connection, if there is one.
-  bool make_room();
+  /// Closes the connection of the oldest stranger at `port`, if there is one.
+  bool make_room(const Port& port);
 
   CentralComponent& core_;
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Route> routes_;  ///< by the core's connection number
   std::vector<ConnectionId> free_routes_;
-  std::uint64_t closed_by_full_queue_ = 0;
+  std::uint64_t closed_by_full_queue_ = 0, closed_for_room_ = 0;
 };
 
 }  // namespace rink::rti

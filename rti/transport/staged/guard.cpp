@@ -87,21 +87,28 @@ Guard::Session* Guard::session_of(ConnectionId connection) {
 
 void Guard::open(ConnectionId connection, Bytes bytes) {
   Session* const session = session_of(connection);
-  if (session == nullptr || session->is_broken) return;
+  if (session == nullptr || session->is_closing) return;
   const Framing framing = session->records.receive(
       bytes, [] { return seal_record_max; },
       [&](Bytes record) {
         if (!session->incoming.open(record, opened_) || opened_.empty()) return false;
         TransportStage::on_bytes(connection, opened_);
-        return true;
+        return !session->is_closing;
       });
-  if (framing == Framing::sound) return;
+  if (framing == Framing::sound || session->is_closing) return;
   session->is_broken = true;
   close(connection);
 }
 
+/// Nothing is opened for a listener that has closed the connection.
+void Guard::close(ConnectionId connection) {
+  if (Session* const session = session_of(connection)) session->is_closing = true;
+  TransportStage::close(connection);
+}
+
 void Guard::on_datagram(ConnectionId connection, Bytes datagram) {
   Session* const session = session_of(connection);
+  if (session != nullptr && session->is_closing) return;
   if (session != nullptr && session->incoming.open_datagram(datagram, opened_))
     TransportStage::on_datagram(connection, opened_);
   else ++rejected_datagrams_;
@@ -124,13 +131,13 @@ void Guard::send_datagrams(ConnectionId connection, std::span<const Datagram> da
   Session* const session = session_of(connection);
   if (session == nullptr) return;
   if (sealed_datagrams_.size() < datagrams.size()) sealed_datagrams_.resize(datagrams.size());
-  std::vector<Datagram> sealed;
+  to_send_.clear();
   for (std::size_t i = 0; i < datagrams.size(); ++i) {
     sealed_datagrams_[i].clear();
     session->outgoing.seal_datagram(datagrams[i], sealed_datagrams_[i]);
-    sealed.push_back({.head = sealed_datagrams_[i], .body = {}});
+    to_send_.push_back({.head = sealed_datagrams_[i], .body = {}});
   }
-  TransportStage::send_datagrams(connection, sealed);
+  TransportStage::send_datagrams(connection, to_send_);
 }
 
 void Guard::on_close(ConnectionId connection, CloseReason reason, const std::string& detail) {

@@ -21,16 +21,18 @@ struct GuardSettings {
 
 /// Holds a handshake on each connection (rti/admission/handshake.h). The connection opens for the
 /// user once both ends have proven themselves. One that does not is closed, unnoticed by the user
-/// at the RTI's end, with `failed` and a reason at the federate's. Afterwards bytes and datagrams
-/// are encrypted and authenticated (rti/admission/seal.h): a connection with altered, missing or
-/// repeated bytes ends with `failed` at both ends, such datagrams are dropped and counted. Bytes
-/// that a federate sends before the proof wait for it.
+/// at the RTI's end, with `failed` and a reason at the federate's. Bytes that a federate sends
+/// before the proof wait for it. Afterwards bytes and datagrams are encrypted and authenticated
+/// (rti/admission/seal.h): a connection with altered, missing or repeated bytes ends with `failed`
+/// where that is noticed, such datagrams are dropped and counted. A stream cut off between two
+/// records is not told from an end that is gone.
 class Guard final : public TransportStage {
  public:
   Guard(const SharedKey& key, GuardSettings settings, Clock now_s);
 
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
+  void close(ConnectionId connection) override;
   std::size_t datagram_max(ConnectionId connection) const override;
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
 
@@ -58,7 +60,7 @@ class Guard final : public TransportStage {
     Seal outgoing;
     SealReader incoming;
     FrameReader records{};
-    bool is_broken = false;
+    bool is_broken = false, is_closing = false;
   };
   Session* session_of(ConnectionId connection);
   bool is_known(ConnectionId connection) const {
@@ -81,6 +83,7 @@ class Guard final : public TransportStage {
   FrameWriter sealed_{seal_record_max};
   std::vector<std::byte> opened_;
   std::vector<std::vector<std::byte>> sealed_datagrams_;
+  std::vector<Datagram> to_send_;
   std::uint64_t refused_ = 0, rejected_datagrams_ = 0;
 };
 

@@ -90,6 +90,7 @@ class UdpTransport final : public Transport, private TransportListener {
   void on_open(ConnectionId connection) override;
   void on_bytes(ConnectionId connection, Bytes bytes) override;
   void on_close(ConnectionId connection, CloseReason reason, const std::string& detail) override;
+  bool on_shortage() override { return listener_->on_shortage(); }
 
   // udp.cpp
   Channel* find(ConnectionId connection) const {

@@ -206,10 +206,11 @@ TEST(Admission, KeyFilesAreReadWithoutTheirLastLineEndAndRefusedIfShortOrOpenToO
   std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
   EXPECT_EQ(SharedKey::load(file).prove(Role::rti, basis), ours().prove(Role::rti, basis));
-  for (const perms others : {perms::group_read, perms::others_read}) {
+  for (const perms others :
+       {perms::group_read, perms::group_write, perms::others_read, perms::others_write}) {
     std::filesystem::permissions(file, perms::owner_read | perms::owner_write | others);
     EXPECT_EQ(fault_of(file),
-              file.string() + ": others may read this key; chmod 600 " + file.string());
+              file.string() + ": others may read or write this key; chmod 600 " + file.string());
   }
   std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   std::ofstream(file) << "short\n";

@@ -145,17 +145,21 @@ TEST(ShortageOfFiles, IsNoReasonToTurnAwayWhoHasJoined) {
 
 TEST(FederationDirectory, NamesTheOldestOfThoseWhoHaveAskedForNoExecution) {
   FederationDirectory directory;
-  EXPECT_FALSE(directory.oldest_stranger());
+  const auto oldest = [&] { return directory.oldest_stranger([](ConnectionId) { return true; }); };
+  EXPECT_FALSE(oldest());
   directory.connect(3);
   directory.advance_clock(0.5);
   directory.connect(1);
-  EXPECT_FALSE(directory.oldest_stranger()) << "all are young";
+  EXPECT_FALSE(oldest()) << "all are young";
   directory.advance_clock(1.0);
-  EXPECT_EQ(directory.oldest_stranger(), std::optional<ConnectionId>(3));
-  directory.disconnect(3, "");
-  EXPECT_FALSE(directory.oldest_stranger());
+  EXPECT_EQ(oldest(), std::optional<ConnectionId>(3));
   directory.advance_clock(1.5);
-  EXPECT_EQ(directory.oldest_stranger(), std::optional<ConnectionId>(1));
+  EXPECT_EQ(oldest(), std::optional<ConnectionId>(3));
+  EXPECT_EQ(directory.oldest_stranger([](ConnectionId id) { return id != 3; }),
+            std::optional<ConnectionId>(1))
+      << "among those that would make room";
+  directory.disconnect(3, "");
+  EXPECT_EQ(oldest(), std::optional<ConnectionId>(1));
 }
 
 }  // namespace
