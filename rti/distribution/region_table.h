@@ -85,6 +85,7 @@ class RegionTable {
     assert(object < uses_.size());
     return uses_[object];
   }
+  const ObjectTable& objects() const { return objects_; }
   ObjectSlot object_count() const { return static_cast<ObjectSlot>(uses_.size()); }
   /// The associations of an object that uses several regions.
   const std::vector<Association>& several_of(ObjectSlot object) const {
