@@ -40,8 +40,10 @@ class CentralComponent {
   /// A whole datagram of a federate; datagrams may arrive in any order, twice or never.
   virtual void receive_datagram(ConnectionId /*connection*/, Bytes /*datagram*/) {}
   virtual void disconnect(ConnectionId connection, std::string_view why) = 0;
-  /// `now` [s] never decreases.
-  virtual void advance_clock(double now) = 0;
+  /// `now` [s] never decreases. `is_behind`: some of what connections have sent may wait unread, so
+  /// that nobody counts as silent since the last call.
+  virtual void advance_clock(double now, bool is_behind) = 0;
+  void advance_clock(double now) { advance_clock(now, false); }
   virtual void match() = 0;
   virtual void flush(Outlet& outlet) = 0;
 };

@@ -44,7 +44,8 @@ class FederationDirectory final : public CentralComponent {
   void receive(ConnectionId connection, Bytes bytes) override;
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
-  void advance_clock(double now) override;
+  void advance_clock(double now, bool is_behind) override;
+  using CentralComponent::advance_clock;
   void match() override;
   void flush(Outlet& outlet) override;
 

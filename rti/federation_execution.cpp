@@ -48,7 +48,9 @@ void FederationExecution::receive_datagram(ConnectionId connection, Bytes datagr
 void FederationExecution::disconnect(ConnectionId connection, std::string_view) {
   parts_->connections.disconnect(connection);
 }
-void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
+void FederationExecution::advance_clock(double now, bool is_behind) {
+  parts_->advance_clock(now, is_behind);
+}
 
 void FederationExecution::match() { parts_->match(); }
 

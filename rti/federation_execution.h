@@ -51,8 +51,9 @@ class FederationExecution final : public CentralComponent {
   void receive(ConnectionId connection, Bytes bytes) override;
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
-  /// `now` [s] never decreases. Drops connections that have been silent for too long.
-  void advance_clock(double now) override;
+  /// Drops connections that have been silent for too long.
+  void advance_clock(double now, bool is_behind) override;
+  using CentralComponent::advance_clock;
   /// What the host of a federation knows and the filter may use (docs/rti.md, "What a filter knows
   /// beside regions"): teams, owners, and which objects are always relevant. A federate receives
   /// every object that has its owner's number, whatever the filter decides. A role of something

@@ -129,6 +129,28 @@ TEST(Tcp, AReaderThatNeverReadsIsClosedAtItsQueuesLimit) {
       << "the kernel's own queue for it is bounded too";
 }
 
+TEST(Tcp, APollThatEndsAtItsLimitSaysThatMoreMayWait) {
+  TcpSettings settings;
+  settings.bytes_per_poll = 10'000;
+  TcpTransport server, client(settings);
+  Tally here, there;
+  constexpr int peers = 5;
+  const std::uint16_t port = server.listen("127.0.0.1", 0);
+  for (int k = 0; k < peers; ++k) client.connect("127.0.0.1", port);
+  while (here.opened < peers || there.opened < peers)
+    client.poll(1ms, there), server.poll(1ms, here);
+  EXPECT_FALSE(client.is_behind());
+  const std::vector<std::byte> chunk(8'000);
+  const Bytes part = chunk;
+  for (ConnectionId k = 0; k < peers; ++k) server.send(k, std::span(&part, 1));
+  client.poll(1s, there);
+  EXPECT_TRUE(client.is_behind());
+  for (int k = 0; k < 100 && (there.bytes < peers * chunk.size() || client.is_behind()); ++k)
+    client.poll(10ms, there);
+  EXPECT_EQ(there.bytes, peers * chunk.size());
+  EXPECT_FALSE(client.is_behind());
+}
+
 TEST(Tcp, ManyFilesAreRaisedOrNamed) {
   EXPECT_NO_THROW(ensure_file_limit(64));
   try {
