@@ -170,6 +170,11 @@ void FederationExecution::serve_by_host(FederateHandle federate, ObjectClassHand
   });
 }
 
+std::uint64_t FederationExecution::times_updated(FederateHandle federate) const {
+  const auto slot = parts_->ground.federates.joined(federate);
+  return slot ? parts_->ground.federates[*slot].times_updated : 0;
+}
+
 const Bitmap* FederationExecution::scope(FederateHandle federate) const {
   const auto slot = parts_->ground.federates.joined(federate);
   return slot ? &parts_->ground.distribution->of(*slot).in_scope : nullptr;

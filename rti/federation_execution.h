@@ -81,6 +81,8 @@ class FederationExecution final : public CentralComponent {
   /// Appends every object that is in `federate`'s scope since the last match, in no particular
   /// order.
   void list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const;
+  /// How many flushes have sent `federate` values at its turn since it joined; 0 if it left.
+  std::uint64_t times_updated(FederateHandle federate) const;
   /// Appends every region with bounds that a federate subscribes with.
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   /// Sends `content`, at most HostMessage::size_max bytes (asserted), to one federate behind all
