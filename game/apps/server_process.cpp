@@ -194,7 +194,7 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   keep_records();
   report_flood();
   const bool is_told_as_asked = output_rates_.divisor() == 1;
-  follow_load(due_s, begin_s);
+  follow_load(due_s, begin_s, tick.send_s);
   if (!is_counted) return;
   costs_.physics_s += caught_up_s + tick.physics_s;
   costs_.filter_s += tick.filter_s;
@@ -206,10 +206,10 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
 }
 
 /// Under overload all clients are told less often, so that the game goes on and nobody is lost.
-void ServerProcess::follow_load(double due_s, double begin_s) {
+void ServerProcess::follow_load(double due_s, double begin_s, double telling_s) {
   if (!overload_) return;
   output_rates_.add_newcomers(server_, serving_.execution());
-  if (!overload_->ticked(due_s, begin_s, now_s())) return;
+  if (!overload_->ticked(due_s, begin_s, now_s(), telling_s)) return;
   const std::uint32_t before = output_rates_.divisor(), now = overload_->divisor();
   output_rates_.set_divisor(server_, serving_.execution(), now);
   if (before < now)
