@@ -330,7 +330,9 @@ std::span<const Datagram> Ambassador::outgoing_datagrams() { return parts_->outg
 void Ambassador::clear_outgoing_datagrams() { parts_->clear_outgoing_datagrams(); }
 Bytes Ambassador::outgoing() const { return parts_->ground.frames.bytes(); }
 void Ambassador::clear_outgoing() { parts_->clear_outgoing(); }
-void Ambassador::advance_clock(double now) { parts_->advance_clock(now); }
+void Ambassador::advance_clock(double now, bool is_behind) {
+  parts_->advance_clock(now, is_behind);
+}
 void Ambassador::disconnected(std::string_view why) { parts_->lose(why); }
 const AmbassadorCounters& Ambassador::counters() const { return parts_->ground.counters; }
 std::size_t Ambassador::memory_bytes() const {

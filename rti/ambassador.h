@@ -287,8 +287,9 @@ class Ambassador {
   Bytes outgoing() const;
   void clear_outgoing();
   /// `now` [s] never decreases; the origin is free. Sends a heartbeat when idle, and notices a
-  /// silent RTI.
-  void advance_clock(double now);
+  /// silent RTI. `is_behind`: some of what the RTI has sent may wait unread, so that the time since
+  /// the last call is not its silence.
+  void advance_clock(double now, bool is_behind = false);
   /// The connection is gone: `connection_lost` follows unless the federate resigned or was refused.
   void disconnected(std::string_view why);
 

@@ -51,8 +51,10 @@ class CentralComponent {
   virtual std::optional<ConnectionId> oldest_stranger(const ConnectionTest& /*test*/) const {
     return std::nullopt;
   }
-  /// `now` [s] never decreases.
-  virtual void advance_clock(double now) = 0;
+  /// `now` [s] never decreases. `is_behind`: some of what connections have sent may wait unread, so
+  /// that nobody counts as silent since the last call.
+  virtual void advance_clock(double now, bool is_behind) = 0;
+  void advance_clock(double now) { advance_clock(now, false); }
   virtual void match() = 0;
   virtual void flush(Outlet& outlet) = 0;
 };

@@ -219,13 +219,14 @@ void FederationDirectory::disconnect(ConnectionId id, std::string_view why) {
   std::erase_if(answers_, [id](const Answer& each) { return each.connection == id; });
 }
 
-void FederationDirectory::advance_clock(double now) {
-  now_ = now;
-  for (const auto& execution : executions_) execution->advance_clock(now);
+void FederationDirectory::advance_clock(double now, bool is_behind) {
+  const double passed_s = now - std::exchange(now_, now);
+  for (const auto& execution : executions_) execution->advance_clock(now, is_behind);
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     Connection& connection = connections_[id];
     if (!connection.is_connected || connection.execution != nullptr) continue;
     if (connection.has_spoken) connection.last_received = now;
+    else if (is_behind) connection.last_received += passed_s;
     connection.has_spoken = false;
     if (now - connection.last_received > settings_.federation.timeouts.lost_after_s) drop(id);
   }

@@ -46,7 +46,8 @@ class FederationDirectory final : public CentralComponent {
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
   std::optional<ConnectionId> oldest_stranger(const ConnectionTest& test) const override;
-  void advance_clock(double now) override;
+  void advance_clock(double now, bool is_behind) override;
+  using CentralComponent::advance_clock;
   void match() override;
   void flush(Outlet& outlet) override;
 

@@ -51,7 +51,9 @@ void FederationExecution::disconnect(ConnectionId connection, std::string_view) 
 std::optional<ConnectionId> FederationExecution::oldest_stranger(const ConnectionTest& test) const {
   return parts_->connections.oldest_stranger(test);
 }
-void FederationExecution::advance_clock(double now) { parts_->advance_clock(now); }
+void FederationExecution::advance_clock(double now, bool is_behind) {
+  parts_->advance_clock(now, is_behind);
+}
 
 void FederationExecution::match() { parts_->match(); }
 
@@ -169,6 +171,11 @@ void FederationExecution::serve_by_host(FederateHandle federate, ObjectClassHand
     interest.needs_full_state.insert(each);
     interest.needs_any_full_state = true;
   });
+}
+
+std::uint64_t FederationExecution::times_updated(FederateHandle federate) const {
+  const auto slot = parts_->ground.federates.joined(federate);
+  return slot ? parts_->ground.federates[*slot].times_updated : 0;
 }
 
 const Bitmap* FederationExecution::scope(FederateHandle federate) const {

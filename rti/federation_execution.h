@@ -53,8 +53,9 @@ class FederationExecution final : public CentralComponent {
   void receive_datagram(ConnectionId connection, Bytes datagram) override;
   void disconnect(ConnectionId connection, std::string_view why) override;
   std::optional<ConnectionId> oldest_stranger(const ConnectionTest& test) const override;
-  /// `now` [s] never decreases. Drops connections that have been silent for too long.
-  void advance_clock(double now) override;
+  /// Drops connections that have been silent for too long.
+  void advance_clock(double now, bool is_behind) override;
+  using CentralComponent::advance_clock;
   /// What the host of a federation knows and the filter may use (docs/rti.md, "What a filter knows
   /// beside regions"): teams, owners, and which objects are always relevant. A federate receives
   /// every object that has its owner's number, whatever the filter decides. A role of something
@@ -82,6 +83,8 @@ class FederationExecution final : public CentralComponent {
   /// Appends every object that is in `federate`'s scope since the last match, in no particular
   /// order.
   void list_scope(FederateHandle federate, std::vector<ObjectHandle>& objects) const;
+  /// How many flushes have sent `federate` values at its turn since it joined; 0 if it left.
+  std::uint64_t times_updated(FederateHandle federate) const;
   /// Appends every region with bounds that a federate subscribes with.
   void list_subscribed_regions(std::vector<SubscribedRegion>& regions) const;
   /// Sends `content`, at most HostMessage::size_max bytes (asserted), to one federate behind all

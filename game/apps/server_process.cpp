@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "game/apps/command.h"
@@ -118,9 +119,8 @@ void ServerProcess::await_turns() {
 }
 
 /// The clock of the RTI goes on whatever the players do: when it stood still until all had reached
-/// the barrier, the server's own federate received nothing for so long that it took the RTI for
-/// dead, and its next update was refused with "join first". Crowds with datagrams, which nothing
-/// delays, took that long.
+/// the barrier, as crowds with datagrams take long to, the server's own federate took the RTI for
+/// dead, and its next update was refused with "join first".
 void ServerProcess::wait(double seconds) {
   TickCosts uncounted;
   serving_.exchange(seconds);
@@ -147,8 +147,7 @@ bool ServerProcess::start() {
   return server_.is_started() && (!shared_ || shared_->may_begin());
 }
 
-/// The tick that comes next instead of one that is too far behind; its clients are told of all
-/// that happened meanwhile.
+/// The tick that comes next instead of one that is too far behind, with all that happened since.
 std::uint64_t ServerProcess::leave_out(std::uint64_t number, std::uint64_t last, bool is_counted) {
   if (!overload_) return number;
   const double due_s = start_s_ + static_cast<double>(number) / options_.rate_hz;
@@ -195,21 +194,22 @@ void ServerProcess::tick(std::uint64_t number, bool is_counted) {
   keep_records();
   report_flood();
   const bool is_told_as_asked = output_rates_.divisor() == 1;
-  follow_load(due_s, begin_s);
+  follow_load(due_s, begin_s, tick.send_s);
   if (!is_counted) return;
   costs_.physics_s += caught_up_s + tick.physics_s;
   costs_.filter_s += tick.filter_s;
   costs_.send_s += tick.send_s;
   costs_.send_max_s = std::max(costs_.send_max_s, tick.send_s);
   ++costs_.ticks;
+  follow_times_updated(serving_, costs_.end);
   if (is_told_as_asked && now_s() <= due_s + period_s) ++costs_.ticks_on_time;
 }
 
 /// Under overload all clients are told less often, so that the game goes on and nobody is lost.
-void ServerProcess::follow_load(double due_s, double begin_s) {
+void ServerProcess::follow_load(double due_s, double begin_s, double telling_s) {
   if (!overload_) return;
   output_rates_.add_newcomers(server_, serving_.execution());
-  if (!overload_->ticked(due_s, begin_s, now_s())) return;
+  if (!overload_->ticked(due_s, begin_s, now_s(), telling_s)) return;
   const std::uint32_t before = output_rates_.divisor(), now = overload_->divisor();
   output_rates_.set_divisor(server_, serving_.execution(), now);
   if (before < now)
@@ -228,8 +228,7 @@ double ServerProcess::goal(std::uint64_t number) const {
   return begin_s_ + static_cast<double>(number) * period_s - behind_s_;
 }
 
-/// Neither real time nor the players' turns wait for a tick that was cut short, and nothing is made
-/// up for in a rush.
+/// Neither clock nor players wait for a tick that was cut short; nothing is made up for in a rush.
 void ServerProcess::fall_behind(double elapsed_s, double simulated_s) {
   if (const auto complaint = server_.budget().take_complaint()) warn("--budget: ", *complaint);
   if (!server_.game().is_cut_short()) return;
@@ -266,7 +265,7 @@ void ServerProcess::run() {
       costs_.game_from_s = server_.game().now();
       costs_.from_s = now_s();
       stagger_.forget_bursts();
-      costs_.begin = counts();
+      costs_.begin = costs_.end = counts();
     }
     // The last tick closes the span and is not in it: n ticks, and the n periods that they begin.
     if (is_measuring && number == last) end_span();
@@ -287,7 +286,8 @@ void ServerProcess::end_span() {
   costs_.has_ended = true;
   costs_.span_s = now_s() - costs_.from_s;
   costs_.game_span_s = server_.game().now() - costs_.game_from_s;
-  costs_.end = counts();
+  auto times_updated = std::move(costs_.end.times_updated);  // of clients that left early, too
+  (costs_.end = counts()).times_updated = std::move(times_updated);
 }
 
 ServingCounts ServerProcess::counts() const {

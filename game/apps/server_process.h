@@ -69,7 +69,7 @@ class ServerProcess {
   std::uint64_t leave_out(std::uint64_t number, std::uint64_t last, bool is_counted);
   void tick(std::uint64_t number, bool is_counted);
   double catch_up(double simulated_s, double& physics_s);
-  void follow_load(double due_s, double begin_s);
+  void follow_load(double due_s, double begin_s, double telling_s);
   void end_span();
   ServingCounts counts() const;
   double goal(std::uint64_t number) const;

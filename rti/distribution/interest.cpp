@@ -8,13 +8,13 @@
 namespace rink::rti {
 
 Interest::Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
-                   std::unique_ptr<im::Filter> filter)
+                   std::unique_ptr<im::Filter> filter, std::size_t newcomer_pairs_max)
     : DataDistribution(scopes_),
       class_count_(fom.object_classes().size()),
       filter_(std::move(filter)),
       facts_(*filter_),
       regions_(fom, objects, *filter_, facts_, counters_),
-      subscriptions_(fom, regions_, *filter_, facts_),
+      subscriptions_(fom, regions_, *filter_, facts_, newcomer_pairs_max),
       planner_(*filter_, objects, regions_, subscriptions_, facts_),
       matcher_({.objects = objects,
                 .ownership = ownership,
@@ -109,7 +109,7 @@ void Interest::modify_region(std::uint32_t federate, RegionHandle region,
 
 void Interest::follow(std::uint32_t federate, RegionHandle region, Commit commit) {
   if (commit == Commit::first || commit == Commit::moved)
-    subscriptions_.follow(regions_.slot_of(federate, region), commit == Commit::first);
+    subscriptions_.follow(regions_.slot_of(federate, region));
 }
 
 void Interest::delete_region(std::uint32_t federate, RegionHandle region) {
@@ -209,7 +209,9 @@ void Interest::share_out(std::uint32_t federate, const BytesDue& bytes_due) {
 
 void Interest::match() {
   planner_.begin_match();
+  subscriptions_.admit_waiting();
   matcher_.match(filter_->match(), changed_objects_);
+  subscriptions_.end_match();
 }
 
 void Interest::list_regions_of_interest(std::vector<RegionOfInterest>& regions) const {

@@ -24,7 +24,8 @@ namespace rink::rti {
 class Interest : public DataDistribution {
  public:
   Interest(const Fom& fom, const ObjectTable& objects, const Ownership& ownership,
-           std::unique_ptr<im::Filter> filter);
+           std::unique_ptr<im::Filter> filter,
+           std::size_t newcomer_pairs_max = FederationSettings{}.newcomer_pairs_per_match_max);
   Interest(const Interest&) = delete;
   Interest& operator=(const Interest&) = delete;
 

@@ -132,6 +132,8 @@ void RegionTable::count_subscription(RegionSlot slot, bool is_added) {
 
 void RegionTable::add_object(ObjectSlot object) {
   if (object >= uses_.size()) uses_.resize(object + std::size_t{1});
+  assert(uses_[object].region == no_region);
+  without_region_.insert(object);
 }
 
 void RegionTable::become_entity(RegionSlot slot) {
@@ -210,6 +212,8 @@ Reassociation RegionTable::set_associations(ObjectSlot object,
     used.region = several;
     associations_[object] = std::move(associations);
   }
+  if (used.region == no_region) without_region_.insert(object);
+  else without_region_.erase(object);
   change.is_mixing_changed = had_several != has_several();
   assert((used.region == several) == associations_.contains(object));
   return change;

@@ -12,6 +12,7 @@
 #include "rti/distribution/data_distribution.h"
 #include "rti/distribution/distributed_region.h"
 #include "rti/distribution/filter_facts.h"
+#include "rti/objects/bitmap.h"
 
 namespace rink::rti {
 
@@ -84,12 +85,15 @@ class RegionTable {
     assert(object < uses_.size());
     return uses_[object];
   }
+  const ObjectTable& objects() const { return objects_; }
   ObjectSlot object_count() const { return static_cast<ObjectSlot>(uses_.size()); }
   /// The associations of an object that uses several regions.
   const std::vector<Association>& several_of(ObjectSlot object) const {
     return associations_.at(object);
   }
   bool has_several() const { return !associations_.empty(); }
+  /// Objects that use no region, among them some that are gone.
+  const Bitmap& without_region() const { return without_region_; }
   std::vector<Association> associations_of(ObjectSlot object) const;
   /// All of the object uses the region alone, or none if it is no_region.
   Reassociation associate(ObjectSlot object, RegionSlot region);
@@ -141,6 +145,7 @@ class RegionTable {
   std::vector<RegionSlot> region_of_entity_;
   std::vector<im::Entity> free_entities_;
   std::vector<Use> uses_;  ///< by object
+  Bitmap without_region_;  ///< objects
   std::unordered_map<ObjectSlot, std::vector<Association>>
       associations_;  ///< of objects that use `several`
 };

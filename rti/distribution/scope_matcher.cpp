@@ -129,20 +129,49 @@ bool ScopeMatcher::uniform_classes(const DeclaredInterest& declared,
   return true;
 }
 
+/// Lists all objects that are in the federate's scope or may come into it. Who joins a large world
+/// and sees a small part of it is looked at in words of 64 objects for most of it: with 2,500
+/// newcomers among 27,500 objects the first match took seconds when each pair was looked at.
+void ScopeMatcher::list_candidates(const DeclaredInterest& declared) {
+  const ObjectSlot count = parts_.objects.slot_count();
+  const RegionTable& regions = parts_.regions;
+  candidates_.clear();
+  candidates_.insert_all(parts_.scopes.of(declared.federate).in_scope);
+  const auto class_count = static_cast<std::uint16_t>(declared.everywhere.expanded.size());
+  for (std::uint16_t each = 0; each < class_count; ++each)
+    if (!declared.everywhere.expanded[each].is_empty())
+      candidates_.insert_all(parts_.objects.of_class(each));
+  if (declared.regionals.empty()) return;
+  const auto is_unplaced = [](const Regional& each) { return !each.is_placed; };
+  if (regions.has_several() || std::ranges::any_of(declared.regionals, is_unplaced) ||
+      parts_.facts.role_of(declared.federate).owner != im::Role::none) {
+    for (ObjectSlot slot = 0; slot < count; ++slot) candidates_.insert(slot);
+    return;
+  }
+  candidates_.insert_all(regions.without_region());
+  for (const RegionSlot region : regions.unplaced())
+    for (const ObjectSlot slot : regions[region].objects) candidates_.insert(slot);
+  for (const Regional& each : declared.regionals)
+    each.inside.for_each([&](im::Entity entity) {
+      for (const ObjectSlot slot : regions.of_entity(entity).objects) candidates_.insert(slot);
+    });
+}
+
 void ScopeMatcher::reconsider_all(const DeclaredInterest& declared) {
   parts_.subscriptions.clear_changed(declared.federate);
   FederateInterest& interest = parts_.scopes.of(declared.federate);
-  const ObjectSlot count = parts_.objects.slot_count();
   std::vector<AttributeSet> by_class, by_object;
   const bool is_uniform = uniform_classes(declared, by_class);
   if (!is_uniform)
-    by_object.resize(count);  // else four bytes per object of the world would come and go with
-                              // every client, and leave holes in the heap
-  for (ObjectSlot slot = 0; slot < count; ++slot) {
+    by_object.resize(parts_.objects.slot_count());  // else four bytes per object of the world would
+                                                    // come and go with every client, and leave
+                                                    // holes in the heap
+  list_candidates(declared);
+  candidates_.for_each([&](ObjectSlot slot) {
     const AttributeSet is = wanted(declared, slot);
     settle(declared, interest, slot, is);
     if (!is_uniform) by_object[slot] = is;
-  }
+  });
   interest.is_uniform = is_uniform;
   interest.by_class = std::move(by_class);
   interest.by_object = std::move(by_object);

@@ -53,9 +53,11 @@ class ScopeMatcher {
   template <bool is_active_only = false>
   AttributeSet wanted(const DeclaredInterest& declared, ObjectSlot slot) const;
   AttributeSet covered(const Regional& regional, ObjectSlot object, AttributeSet attributes) const;
+  void list_candidates(const DeclaredInterest& declared);
   bool uniform_classes(const DeclaredInterest& declared, std::vector<AttributeSet>& by_class) const;
 
   const Parts parts_;
+  Bitmap candidates_;  ///< of the federate at hand; a member to reuse its memory
 };
 
 }  // namespace rink::rti

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace rink::rti {
 namespace {
@@ -16,11 +17,19 @@ void set_tier(DeclaredInterest::Regional& regional, im::Entity entity, std::uint
   }
 }
 
+double area_of(const im::Region& region) {
+  return (region.high_x - region.low_x) * (region.high_y - region.low_y);
+}
+
 }  // namespace
 
 Subscriptions::Subscriptions(const Fom& fom, RegionTable& regions, im::Filter& filter,
-                             const FilterFacts& facts)
-    : fom_(fom), regions_(regions), filter_(filter), facts_(facts) {}
+                             const FilterFacts& facts, std::size_t newcomer_pairs_max)
+    : fom_(fom),
+      regions_(regions),
+      filter_(filter),
+      facts_(facts),
+      newcomers_(newcomer_pairs_max) {}
 
 void Subscriptions::add_federate(std::uint32_t federate) {
   if (federate >= federates_.size()) federates_.resize(federate + std::size_t{1});
@@ -34,6 +43,7 @@ void Subscriptions::add_federate(std::uint32_t federate) {
 
 void Subscriptions::remove_federate(std::uint32_t federate) {
   assert(federates_[federate]->regionals.empty());
+  if (federates_[federate]->is_waiting) newcomers_.forget(federate);
   federates_[federate].reset();
 }
 
@@ -42,17 +52,21 @@ bool Subscriptions::is_a(std::uint16_t interaction_class, std::uint16_t supercla
 }
 
 void Subscriptions::expand(ClassInterest& interest) const {
-  for (std::uint32_t i = 0; i < interest.declared.size(); ++i) {
-    interest.expanded[i] = interest.declared[i];
-    for (ObjectClassHandle parent = fom_.at(ObjectClassHandle{i}).parent; parent;
-         parent = fom_.at(parent).parent)
-      interest.expanded[i] = interest.expanded[i] | interest.declared[parent.value];
-  }
+  for (std::uint16_t i = 0; i < interest.declared.size(); ++i)
+    interest.expanded[i] = inherited(interest, i);
+}
+
+AttributeSet Subscriptions::inherited(const ClassInterest& interest,
+                                      std::uint16_t object_class) const {
+  AttributeSet set;
+  for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent)
+    set = set | interest.declared[each.value];
+  return set;
 }
 
 AttributeSet Subscriptions::active(const ClassInterest& interest,
                                    std::uint16_t object_class) const {
-  if (interest.passive.empty()) return interest.expanded[object_class];
+  if (interest.passive.empty()) return inherited(interest, object_class);
   AttributeSet set;
   for (ObjectClassHandle each{object_class}; each; each = fom_.at(each).parent)
     set = set | interest.declared[each.value].without(interest.passive[each.value]);
@@ -65,17 +79,106 @@ void Subscriptions::subscribe(std::uint32_t federate, std::uint16_t object_class
   assert(attributes.subscribed.includes(attributes.active));
   DeclaredInterest& interest = *federates_[federate];
   const bool is_regional = region != no_region;
-  ClassInterest& classes = is_regional ? regional(interest, region).classes : interest.everywhere;
-  classes.declared[object_class] = attributes.subscribed;
+  Regional* const with = is_regional ? &regional(interest, region) : nullptr;
+  ClassInterest& classes = with != nullptr ? with->classes : interest.everywhere;
+  const AttributeSet before = std::exchange(classes.declared[object_class], attributes.subscribed);
   const AttributeSet passive = attributes.subscribed.without(attributes.active);
   if (classes.passive.empty() && !passive.is_empty())
     classes.passive.resize(classes.declared.size());
   if (!classes.passive.empty()) classes.passive[object_class] = passive;
-  expand(classes);
-  interest.is_changed = true;
   const auto is_empty = [](AttributeSet set) { return set.is_empty(); };
   if (is_regional && std::ranges::all_of(classes.declared, is_empty))
-    drop_regional(interest, region);
+    return drop_regional(interest, region);
+  if (!attributes.subscribed.includes(before)) {
+    if (interest.is_waiting) return take_in(interest);  // nobody waits to be sent less
+  } else if (interest.is_waiting ||
+             !newcomers_.admit(pairs_looked_at(interest) +
+                               (with != nullptr ? pairs_of(*with) : object_count(object_class)))) {
+    return wait(interest);
+  }
+  expand(classes);
+  if (with != nullptr) pass(interest, *with);
+  interest.is_changed = true;
+}
+
+/// Those that a match looks at since the subscriptions of one federate are new, beside their own:
+/// most objects are looked at 64 at once.
+std::size_t Subscriptions::pairs_looked_at(const DeclaredInterest& interest) const {
+  return interest.is_changed ? 0 : 1 + regions_.object_count() / 64;
+}
+
+/// Of the class and its subclasses.
+std::size_t Subscriptions::object_count(std::uint16_t object_class) const {
+  std::size_t count = 0;
+  for (std::uint16_t each = 0; each < fom_.object_classes().size(); ++each)
+    if (fom_.is_a(ObjectClassHandle{each}, ObjectClassHandle{object_class}))
+      count += regions_.objects().count_of_class(each);
+  return count;
+}
+
+std::size_t Subscriptions::pairs_of(const Regional& regional) const {
+  const DistributedRegion& region = regions_[regional.region];
+  if (!region.is_placed) return regions_.object_count();
+  if (!region.is_committed) return 0;
+  return newcomers_.expected(area_of(region.plane), regions_.object_count());
+}
+
+std::size_t Subscriptions::pairs_of(const DeclaredInterest& interest) const {
+  std::size_t pairs = pairs_looked_at(interest);
+  for (std::uint16_t each = 0; each < interest.everywhere.declared.size(); ++each)
+    if (!interest.everywhere.expanded[each].includes(interest.everywhere.declared[each]))
+      pairs += object_count(each);
+  for (const Regional& each : interest.regionals)
+    if (!each.is_passed || !is_expanded(each.classes)) pairs += pairs_of(each);
+  return pairs;
+}
+
+bool Subscriptions::is_expanded(const ClassInterest& interest) const {
+  for (std::uint16_t each = 0; each < interest.declared.size(); ++each)
+    if (!interest.expanded[each].includes(interest.declared[each])) return false;
+  return true;
+}
+
+/// Passes the region to the filter for the first time, if there is one to pass.
+void Subscriptions::pass(const DeclaredInterest& interest, Regional& regional) {
+  const DistributedRegion& region = regions_[regional.region];
+  if (!regional.is_placed || regional.is_passed || !region.is_committed) return;
+  filter_.set_subscription_region(regional.subscriber, region.plane);
+  facts_.inform_subscriber(interest.federate, regional.subscriber);
+  regional.is_passed = regional.is_new = true;
+  passed_.push_back({interest.federate, regional.region});
+  passed_area_ += area_of(region.plane);
+}
+
+void Subscriptions::wait(DeclaredInterest& interest) {
+  if (!std::exchange(interest.is_waiting, true)) newcomers_.wait(interest.federate);
+}
+
+void Subscriptions::take_in(DeclaredInterest& interest) {
+  if (std::exchange(interest.is_waiting, false)) newcomers_.forget(interest.federate);
+  expand(interest.everywhere);
+  for (Regional& each : interest.regionals) {
+    expand(each.classes);
+    pass(interest, each);
+  }
+  interest.is_changed = true;
+}
+
+void Subscriptions::admit_waiting() {
+  newcomers_.admit_waiting([this](std::uint32_t federate) { return pairs_of(of(federate)); },
+                           [this](std::uint32_t federate) { take_in(*federates_[federate]); });
+}
+
+void Subscriptions::end_match() {
+  newcomers_.end_match(passed_area_, found_);
+  for (const Passed& each : passed_) {
+    if (!federates_[each.federate]) continue;
+    for (Regional& regional : federates_[each.federate]->regionals)
+      if (regional.region == each.region) regional.is_new = false;
+  }
+  passed_.clear();
+  passed_area_ = 0.0;
+  found_ = 0;
 }
 
 Subscription Subscriptions::subscribed(std::uint32_t federate, std::uint16_t object_class,
@@ -96,10 +199,10 @@ Subscription Subscriptions::subscribed(std::uint32_t federate, std::uint16_t obj
 Subscription Subscriptions::subscribed_anywhere(std::uint32_t federate,
                                                 std::uint16_t object_class) const {
   const DeclaredInterest& interest = *federates_[federate];
-  Subscription all{interest.everywhere.expanded[object_class],
+  Subscription all{inherited(interest.everywhere, object_class),
                    active(interest.everywhere, object_class)};
   for (const Regional& each : interest.regionals) {
-    all.subscribed = all.subscribed | each.classes.expanded[object_class];
+    all.subscribed = all.subscribed | inherited(each.classes, object_class);
     all.active = all.active | active(each.classes, object_class);
   }
   return all;
@@ -139,11 +242,7 @@ Subscriptions::Regional& Subscriptions::regional(DeclaredInterest& interest, Reg
   added.is_planar = region.is_planar;
   added.classes.declared.resize(fom_.object_classes().size());
   added.classes.expanded = added.classes.declared;
-  if (!region.is_placed) return added;
-  number(interest, added);
-  if (!region.is_committed) return added;
-  filter_.set_subscription_region(added.subscriber, region.plane);
-  facts_.inform_subscriber(interest.federate, added.subscriber);
+  if (region.is_placed) number(interest, added);
   return added;
 }
 
@@ -176,14 +275,16 @@ void Subscriptions::drop_regional(DeclaredInterest& interest, RegionSlot slot) {
   interest.is_changed = true;
 }
 
-void Subscriptions::follow(RegionSlot slot, bool is_first) {
+void Subscriptions::follow(RegionSlot slot) {
   const DistributedRegion& region = regions_[slot];
   assert(region.is_committed);
   if (!region.is_placed || region.subscription_count == 0) return;
-  for (const Regional& each : federates_[region.federate]->regionals) {
+  DeclaredInterest& interest = *federates_[region.federate];
+  for (Regional& each : interest.regionals) {
     if (each.region != slot) continue;
-    filter_.set_subscription_region(each.subscriber, region.plane);
-    if (is_first) facts_.inform_subscriber(region.federate, each.subscriber);
+    if (each.is_passed) filter_.set_subscription_region(each.subscriber, region.plane);
+    else if (interest.is_waiting || !newcomers_.admit(pairs_of(each))) wait(interest);
+    else pass(interest, each);
   }
 }
 
@@ -209,6 +310,7 @@ void Subscriptions::take(const im::Change& change, bool decides_tiers) {
   });
   assert(regional != regionals.end());
   const bool has_left = change.transition == im::Transition::left;
+  if (regional->is_new && change.transition == im::Transition::entered) ++found_;
   if (has_left) regional->inside.erase(change.entity);
   else regional->inside.insert(change.entity);  // it may be inside already and only change its tier
   if (decides_tiers) set_tier(*regional, change.entity, has_left ? 0u : change.tier);

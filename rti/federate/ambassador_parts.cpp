@@ -190,8 +190,8 @@ void AmbassadorParts::clear_outgoing() {
   ground.frames.clear();
 }
 
-void AmbassadorParts::advance_clock(double now) {
-  ground.watch.advance(now, !ground.frames.is_empty());
+void AmbassadorParts::advance_clock(double now, bool is_behind) {
+  ground.watch.advance(now, !ground.frames.is_empty(), is_behind);
   if (ground.phase.is_joined()) sender.repair();
   if (!ground.postponed.is_empty()) release_postponed();
   if (!ground.phase.may_send()) return;

@@ -37,7 +37,7 @@ class AmbassadorParts final {
   std::span<const Datagram> outgoing_datagrams();
   void clear_outgoing_datagrams();
   void clear_outgoing();
-  void advance_clock(double now);
+  void advance_clock(double now, bool is_behind);
   void enable_callbacks();
   void disable_callbacks();
   void lose(std::string_view why);

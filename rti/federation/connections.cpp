@@ -42,12 +42,13 @@ void Connections::forget_words(ConnectionId id) {
     std::erase_if(*words, [id](const PendingClose& each) { return each.connection == id; });
 }
 
-/// However late it is called, the time since then counts as `lost_after_s` at most: what was sent
-/// meanwhile waits in the sockets, and a federate is lost by its own silence alone.
-void Connections::advance_clock() {
+/// However late it is called, the time since then counts as `lost_after_s` at most, and not at all
+/// where not all could be read: what was sent meanwhile waits in the sockets, and a federate is
+/// lost by its own silence alone.
+void Connections::advance_clock(bool is_behind) {
   const double lost_after_s = basis_.settings.timeouts.lost_after_s;
-  const double unseen_s =
-      std::max(0.0, basis_.now - advanced_s_.value_or(basis_.now) - lost_after_s);
+  const double passed_s = basis_.now - advanced_s_.value_or(basis_.now),
+               unseen_s = is_behind ? passed_s : std::max(0.0, passed_s - lost_after_s);
   advanced_s_ = basis_.now;
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     FederationConnection& connection = connections_[id];

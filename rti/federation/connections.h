@@ -41,8 +41,8 @@ class Connections {
   std::optional<ConnectionId> oldest_stranger(const CentralComponent::ConnectionTest& test) const;
   void receive(ConnectionId id, Bytes bytes);
   void receive_datagram(ConnectionId id, Bytes datagram);
-  /// Drops connections that have been silent for too long.
-  void advance_clock();
+  /// Drops connections that have been silent for too long; see CentralComponent.
+  void advance_clock(bool is_behind);
   void expel(ConnectionId id, Violation violation, ResignReason reason, std::string_view why);
   Status resign(ConnectionId id);
   /// The next flush answers.

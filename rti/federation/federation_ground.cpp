@@ -11,15 +11,6 @@ namespace rink::rti {
 
 namespace {
 
-std::unique_ptr<DataDistribution> distribution_of(const FederationServices& services,
-                                                  const Fom& fom, const ObjectTable& objects,
-                                                  const Ownership& ownership,
-                                                  std::unique_ptr<im::Filter> filter) {
-  if (services.data_distribution)
-    return services.data_distribution(fom, objects, ownership, std::move(filter));
-  return std::make_unique<Interest>(fom, objects, ownership, std::move(filter));
-}
-
 std::unique_ptr<GroupCommunication> groups_of(const FederationServices& services) {
   if (services.group_communication) return services.group_communication();
   return std::make_unique<MemberLists>();
@@ -39,7 +30,10 @@ FederationGround::FederationGround(const Fom& model, const FederationSettings& w
       settings(wanted),
       objects(model),
       ownership(model, objects),
-      distribution(distribution_of(services, model, objects, ownership, std::move(filter))),
+      distribution(services.data_distribution
+                       ? services.data_distribution(model, objects, ownership, std::move(filter))
+                       : std::make_unique<Interest>(model, objects, ownership, std::move(filter),
+                                                    settings.newcomer_pairs_per_match_max)),
       buffering(buffering_of(services)),
       groups(groups_of(services)) {}
 

@@ -55,10 +55,10 @@ Expulsion FederationParts::expulsion() {
       };
 }
 
-void FederationParts::advance_clock(double now) {
+void FederationParts::advance_clock(double now, bool is_behind) {
   assert(now >= ground.now);
   ground.now = now;
-  connections.advance_clock();
+  connections.advance_clock(is_behind);
 }
 
 void FederationParts::match() {

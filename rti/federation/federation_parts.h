@@ -35,7 +35,7 @@ class FederationParts final : private FrameHandler {
   FederationParts(const Fom& fom, const FederationSettings& settings,
                   const FederationServices& services, std::unique_ptr<im::Filter> filter);
 
-  void advance_clock(double now);
+  void advance_clock(double now, bool is_behind);
   void match();
   void flush(Outlet& outlet);
   /// The federate is updated at `rate` from now on, with all in its scope anew at its next turn.

@@ -37,12 +37,13 @@ struct JoinedFederate {
   Outbox outbox;
   double last_sent = 0.0;
   std::uint64_t objects_deleted = 0, objects_removed = 0, objects_discovered = 0;
-  FederateCounts counts;         ///< what is counted as it happens; `report` adds the rest
-  std::uint32_t frames = 0;      ///< sent to it
-  StampSteps stamp_steps;        ///< of these frames
-  EntryValues entry_values;      ///< of entries in these frames
-  EntryHeader entry_header;      ///< of the last block of entries in these frames
-  bool has_stream_only = false;  ///< no datagrams, whatever its connection could carry
+  FederateCounts counts;            ///< what is counted as it happens; `report` adds the rest
+  std::uint32_t frames = 0;         ///< sent to it
+  std::uint64_t times_updated = 0;  ///< flushes that sent it values at its turn
+  StampSteps stamp_steps;           ///< of these frames
+  EntryValues entry_values;         ///< of entries in these frames
+  EntryHeader entry_header;         ///< of the last block of entries in these frames
+  bool has_stream_only = false;     ///< no datagrams, whatever its connection could carry
   std::unique_ptr<DatagramChannel> channel;  ///< null until it has one
 };
 

@@ -24,6 +24,10 @@ class Bitmap {
     if (index >= words_.size()) words_.resize(index + 1);
     words_[index] |= word;
   }
+  void insert_all(const Bitmap& others) {
+    if (others.words_.size() > words_.size()) words_.resize(others.words_.size());
+    for (std::size_t i = 0; i < others.words_.size(); ++i) words_[i] |= others.words_[i];
+  }
   void erase_word(std::size_t index, std::uint64_t word) {
     if (index < words_.size()) words_[index] &= ~word;
   }

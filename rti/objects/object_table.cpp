@@ -18,6 +18,7 @@ bool is_fixed(const Attribute& attribute) { return attribute.size && !attribute.
 }  // namespace
 
 ObjectTable::ObjectTable(const Fom& fom) : fom_(fom) {
+  classes_.resize(fom.object_classes().size());
   for (const ObjectClass& each : fom.object_classes()) {
     Layout& layout = layouts_.emplace_back();
     for (const Attribute& attribute : each.attributes) {
@@ -59,6 +60,8 @@ ObjectSlot ObjectTable::insert(ObjectHandle handle, std::uint32_t owner, std::ui
   block.registered = number + 1;
   ++block.alive;
   ++size_;
+  classes_[object_class].slots.insert(slot);
+  ++classes_[object_class].count;
   return slot;
 }
 
@@ -73,6 +76,8 @@ void ObjectTable::erase(ObjectSlot slot) {
   if (--block.alive == 0 && block.is_closed) block.slots = {};
   leaving_.push_back(slot);
   --size_;
+  classes_[object.object_class].slots.erase(slot);
+  --classes_[object.object_class].count;
 }
 
 ObjectTable::Block& ObjectTable::block_of(ObjectHandle handle) {
@@ -105,7 +110,11 @@ void ObjectTable::check() const {
     ++alive;
     assert(find(objects_[slot].handle) == slot);
     assert(objects_[slot].object_class < layouts_.size());
+    assert(of_class(objects_[slot].object_class).contains(slot));
   }
+  [[maybe_unused]] std::size_t of_classes = 0;
+  for (const Members& each : classes_) of_classes += each.count;
+  assert(of_classes == alive);
   assert(alive == size_ && alive + free_.size() + leaving_.size() == objects_.size());
   for (const Block& block : blocks_) {
     [[maybe_unused]] std::size_t in_block = 0;

@@ -8,6 +8,7 @@
 
 #include "rti/federate_ambassador.h"
 #include "rti/fom/fom.h"
+#include "rti/objects/bitmap.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
@@ -52,6 +53,11 @@ class ObjectTable {
   const Object& operator[](ObjectSlot slot) const { return objects_[slot]; }
   ObjectSlot slot_count() const { return static_cast<ObjectSlot>(objects_.size()); }
   std::size_t size() const { return size_; }
+  /// The living objects of a class, without those of its subclasses.
+  const Bitmap& of_class(std::uint16_t object_class) const { return classes_[object_class].slots; }
+  std::size_t count_of_class(std::uint16_t object_class) const {
+    return classes_[object_class].count;
+  }
   /// True if an object of this handle exists or existed; handles are not used twice.
   bool was_registered(ObjectHandle handle) const;
   /// Uses the handle up without an object.
@@ -105,6 +111,11 @@ class ObjectTable {
     AttributeSet statics;
   };
   std::vector<Layout> layouts_;  ///< by class
+  struct Members {
+    Bitmap slots;
+    std::size_t count = 0;
+  };
+  std::vector<Members> classes_;  ///< by class
   const Fom& fom_;
   std::vector<Object> objects_;
   std::vector<ObjectSlot> free_, leaving_;

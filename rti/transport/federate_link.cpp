@@ -33,7 +33,7 @@ void FederateLink::closed(CloseReason reason, const std::string& detail) {
 
 void FederateLink::flush(double now) {
   if (is_finished_) return;
-  ambassador_.advance_clock(now);
+  ambassador_.advance_clock(now, transport_.is_behind());
   if (!is_open_) return;
   send_waiting(ambassador_, transport_, connection_);
 }

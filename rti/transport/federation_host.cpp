@@ -135,6 +135,12 @@ void FederationHost::poll(Transport& transport) {
     if (&port->transport() == &transport) port->poll(std::chrono::nanoseconds(0));
 }
 
+void FederationHost::advance_clock(double now) {
+  bool is_behind = false;
+  for (const auto& port : ports_) is_behind |= port->transport().is_behind();
+  core_.advance_clock(now, is_behind);
+}
+
 void FederationHost::flush() {
   HostOutlet outlet(*this);
   core_.flush(outlet);

@@ -84,6 +84,9 @@ class Transport {
   /// `longest_wait`.
   virtual void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) = 0;
 
+  /// True if the last poll ended at its limits: bytes of connections that it has not read may wait.
+  virtual bool is_behind() const { return false; }
+
   /// Sends the parts, one after the other, as one write. What the operating system does not take
   /// now is queued (a copy), up to the transport's limit; beyond it the connection is closed with
   /// `queue_full`, reported by the next `poll`. Unknown connections are ignored.

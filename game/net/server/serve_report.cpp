@@ -1,6 +1,7 @@
 // Differences of counters, under the names of the report.
 #include "game/net/server/serve_report.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
@@ -34,18 +35,43 @@ void add_sent_to_nodes(Json& report, const std::vector<rti::TransportCounters>& 
   }
 }
 
+/// Of clients that were there at both instants: how often the one that was updated the least, all
+/// on average, and the one that was updated the most were.
+void add_evenness(Json& report, const ServingCounts& begin, const ServingCounts& end) {
+  std::uint64_t least = ~std::uint64_t{0}, most = 0, sum = 0, count = 0;
+  auto first = begin.times_updated.begin();
+  for (const auto& [federate, times] : end.times_updated) {
+    while (first != begin.times_updated.end() && first->first.value < federate.value) ++first;
+    if (first == begin.times_updated.end() || first->first != federate) continue;
+    const std::uint64_t updates = times - first->second;
+    least = std::min(least, updates);
+    most = std::max(most, updates);
+    sum += updates;
+    ++count;
+  }
+  report["times_updated_min"] = count > 0 ? least : 0;
+  report["times_updated_mean"] =
+      count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
+  report["times_updated_max"] = most;
+}
+
 }  // namespace
 
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients) {
   const im::Filter& filter = serving.execution().filter();
   std::vector<im::StageCount> stages;
   filter.list_counts(stages);
-  return {serving.execution().counters(),
-          clients,
-          filter.counters(),
-          std::move(stages),
-          serving.server().game().world().counters(),
-          {}};
+  ServingCounts counts{serving.execution().counters(), clients, filter.counters(),
+                       std::move(stages), serving.server().game().world().counters()};
+  serving.server().seats().for_each([&](rti::FederateHandle federate, const Seats::Seat&) {
+    counts.times_updated.emplace_back(federate, serving.execution().times_updated(federate));
+  });
+  return counts;
+}
+
+void follow_times_updated(const Serving& serving, ServingCounts& counts) {
+  for (auto& [federate, times] : counts.times_updated)
+    times = std::max(times, serving.execution().times_updated(federate));
 }
 
 Json counted_report(const Serving& serving, const ServingCounts& first, const ServingCounts& last) {
@@ -91,6 +117,7 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
       kernel_segments(last.transport) -
       kernel_segments(first.transport);  // without a kernel the own count
   add_sent_to_nodes(report, first.to_nodes, last.to_nodes);
+  add_evenness(report, first, last);
   // Stages are in the order of the expression; two of a kind have an entry each.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];

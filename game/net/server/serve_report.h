@@ -1,7 +1,9 @@
 // Makes a server's report of its counts between two instants.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <utility>
 #include <vector>
 
 #include "game/net/server/serving.h"
@@ -16,9 +18,14 @@ struct ServingCounts {
   std::vector<im::StageCount> stages;  ///< the figures of the filter's stages
   physics::Counters physics;
   std::vector<rti::TransportCounters> to_nodes{};  ///< of a node: what it sent each, by number
+  /// How many times each player's client was updated since it joined, by ascending federate.
+  std::vector<std::pair<rti::FederateHandle, std::uint64_t>> times_updated{};
 };
 
 ServingCounts counts_of(const Serving& serving, const rti::TransportCounters& clients);
+
+/// Counts on for the clients of `times_updated`, as long as each is there.
+void follow_times_updated(const Serving& serving, ServingCounts& counts);
 
 /// The part of a server's report that is independent of clocks: the state of the game, and counts
 /// from `begin` to `end`; of a node also what it sent the others.

@@ -51,7 +51,11 @@ game::ClientSettings BotCrowd::client_settings(std::uint32_t bot) const {
           .extrapolates = settings_.extrapolates};
 }
 
-void BotCrowd::on_open(rti::ConnectionId connection) { crowd_.send(crowd_.of(connection)); }
+void BotCrowd::on_open(rti::ConnectionId connection) {
+  Bot& bot = crowd_.of(connection);
+  bot.is_connected = true;
+  crowd_.send(bot);
+}
 
 void BotCrowd::on_bytes(rti::ConnectionId connection, rti::Bytes bytes) {
   Bot& bot = crowd_.of(connection);
@@ -173,7 +177,8 @@ void BotCrowd::advance_clocks() {
   if (now - clocks_advanced_s_ < 0.25) return;
   clocks_advanced_s_ = now;
   crowd_.for_each_present([&](Bot& bot) {
-    bot.client.ambassador().advance_clock(now);
+    if (!bot.is_connected) return;  // who waits for a connection hears of it from the transport
+    bot.client.ambassador().advance_clock(now, transport_.is_behind());
     crowd_.send(bot);
   });
 }

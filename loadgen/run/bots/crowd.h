@@ -32,7 +32,7 @@ struct Bot {
   rti::ConnectionId connection = 0;
   std::array<std::uint64_t, 16> seen_tags{};  ///< of the ticks that brought news last
   std::size_t next_seen = 0;
-  bool is_lost = false;
+  bool is_connected = false, is_lost = false;
   std::optional<LivePlayer> player;  ///< if it decides for itself
   game::KeysHeld held;               ///< by that one
 };

@@ -10,7 +10,7 @@ namespace rink::rti {
 
 /// Follows the caller's clock; an event between two advances counts as of the later. However late
 /// the caller advances it, the time since then counts as `lost_after_s` at most: nobody has looked
-/// meanwhile whether the RTI was silent.
+/// meanwhile whether the RTI was silent. Where not all that has come was read, it counts nothing.
 class LinkWatch {
  public:
   explicit LinkWatch(const Timeouts& timeouts) : timeouts_(timeouts) {}
@@ -18,12 +18,11 @@ class LinkWatch {
   double now() const { return now_; }  ///< as the clock was last advanced [s]
   void received() { has_received_ = true; }
   void sent() { has_sent_ = true; }
-  /// `is_sending`: bytes wait to be sent.
-  void advance(double now, bool is_sending) {
+  /// `is_sending`: bytes wait to be sent. `is_behind`: bytes may wait to be read.
+  void advance(double now, bool is_sending, bool is_behind) {
     if (!has_clock_) now_ = last_sent_ = now;
-    silent_s_ = has_received_ || !has_clock_
-                    ? 0.0
-                    : silent_s_ + std::min(now - now_, timeouts_.lost_after_s);
+    if (has_received_ || !has_clock_) silent_s_ = 0.0;
+    else if (!is_behind) silent_s_ += std::min(now - now_, timeouts_.lost_after_s);
     now_ = now;
     has_clock_ = true;
     if (has_sent_ || is_sending) last_sent_ = now;

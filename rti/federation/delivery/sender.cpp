@@ -148,7 +148,9 @@ void Sender::flush_federate(FlushContext& context, Outlet& outlet) {
   uses_.received.acknowledge(context.slot, outlet);
   frame.append(federate.outbox.head());
   write_content(context, outlet);
-  federate.counts.reflections_received += basis_.counters.updates_sent - before;
+  const std::uint64_t sent = basis_.counters.updates_sent - before;
+  federate.counts.reflections_received += sent;
+  if (sent > 0) ++federate.times_updated;
   frame.append(federate.outbox.tail());
   federate.outbox.clear();
   settle_interest(context);

@@ -22,6 +22,7 @@ class TransportStage : public Transport, protected TransportListener {
   TransportStage(const TransportStage&) = delete;
   TransportStage& operator=(const TransportStage&) = delete;
 
+  bool is_behind() const override { return below_->is_behind(); }
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override {
     assert(below_ != nullptr);  // it was added to a transport
     above_ = &listener;

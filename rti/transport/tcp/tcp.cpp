@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::size_t events_per_poll =
     4096;  ///< connections opened, closed or read in one poll, more where many are accepted
-constexpr std::size_t accepted_per_event = 64;
+/// Whoever waits to be accepted hears nothing: thousands who connect at once wait few polls.
+constexpr std::size_t accepted_per_event = 512;
 /// Limit of a peer's unsent bytes in the kernel [bytes]. Its own limit grows to megabytes for a
 /// peer that does not read, where newer state can no longer replace them.
 constexpr int unsent_max = 64 * 1024;
@@ -224,6 +225,7 @@ void TcpTransport::report_closed() {
 
 void TcpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) {
   listener_ = &listener;
+  is_behind_ = false;
   if (read_only_peer(longest_wait)) {
     report_closed();
     listener_ = nullptr;
@@ -262,9 +264,11 @@ void TcpTransport::receive_pending() {
   // cost a server three ticks in four. What is left waits in the kernel, and the next poll begins
   // with the peers that this one did not reach.
   const std::uint64_t before = bytes_taken_;
+  is_behind_ = true;
   for (std::size_t taken = 0;
        taken < events_per_poll && bytes_taken_ - before < settings_.bytes_per_poll; ++taken) {
     const auto event = readiness_.next();
+    is_behind_ = event.has_value();
     if (!event) break;
     take(*event);
   }

@@ -46,6 +46,7 @@ class TcpTransport final : public Transport {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  bool is_behind() const override { return is_behind_; }
   std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
   /// Sum over all connections that ever were; where the kernel's counts are not known, the own ones
@@ -112,6 +113,7 @@ class TcpTransport final : public Transport {
   std::size_t open_count_ = 0;
   ConnectionId newest_open_ = 0;
   std::uint32_t reads_ = 0;        ///< reads of an only peer without asking whether it is ready
+  bool is_behind_ = false;         ///< since the last poll
   std::uint64_t bytes_taken_ = 0;  ///< received by all connections
 };
 

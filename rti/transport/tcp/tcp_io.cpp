@@ -22,6 +22,10 @@ constexpr std::size_t part_max = 256;  ///< of one write; more are taken in turn
 constexpr std::size_t fair_read_min = 8 * 1024;  ///< bytes that a peer's turn to be read takes
 constexpr std::size_t cut_off_min = 512 * 1024;  ///< sent bytes of a queue, before they are cut off
 
+/// True if the last write failed since the peer has closed: reading comes to the end, and what the
+/// peer sent before it comes first. Ended at the write, who resigned and left would be lost.
+bool has_peer_closed() { return errno == EPIPE || errno == ECONNRESET; }
+
 }  // namespace
 
 CloseReason TcpTransport::reason_of(int error) {
@@ -91,6 +95,7 @@ void TcpTransport::send(ConnectionId connection, std::span<const Bytes> parts) {
   std::size_t taken = 0;
   if (peer->is_open && peer->queue.size() == peer->queue_from)
     taken = write(*peer, parts, is_broken);
+  if (is_broken && has_peer_closed()) return;
   if (is_broken) return end(*peer, CloseReason::closed_by_peer, "closed by peer");
   if (taken == size) return;
   const std::size_t waiting = peer->queue.size() - peer->queue_from;
@@ -117,8 +122,9 @@ void TcpTransport::drain(Peer& peer) {
   const Bytes waiting = Bytes(peer.queue).subspan(peer.queue_from);
   bool is_broken = false;
   peer.queue_from += write(peer, std::span(&waiting, 1), is_broken);
-  if (is_broken) return end(peer, CloseReason::closed_by_peer, "closed by peer");
-  if (peer.queue_from < peer.queue.size()) {
+  if (is_broken && !has_peer_closed())
+    return end(peer, CloseReason::closed_by_peer, "closed by peer");
+  if (!is_broken && peer.queue_from < peer.queue.size()) {
     // Bytes that were sent are cut off now and then, so that a slow but steady reader does not make
     // the queue's memory grow.
     if (peer.queue_from > std::max(cut_off_min, peer.queue.size() / 2)) {

@@ -161,8 +161,10 @@ void UdpTransport::poll(std::chrono::nanoseconds longest_wait, TransportListener
 void UdpTransport::receive_pending() {
   tcp_.poll({}, *this);
   readiness_.ask({}, {});
+  is_behind_ = true;
   for (std::size_t taken = 0; taken < datagram_events_per_poll; ++taken) {
     const auto event = readiness_.next();
+    is_behind_ = event.has_value();
     if (!event) return;
     if (event->number == timer_mark) {
       ask_again();

@@ -46,6 +46,7 @@ class UdpTransport final : public Transport, private TransportListener {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
+  bool is_behind() const override { return tcp_.is_behind() || is_behind_; }
   std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
   std::size_t datagram_max(ConnectionId connection) const override;
@@ -129,6 +130,7 @@ class UdpTransport final : public Transport, private TransportListener {
   DatagramReader reader_;
   UdpCounters counters_;
   TransportListener* listener_ = nullptr;  ///< while polling
+  bool is_behind_ = false;                 ///< with datagrams, since the last poll
   bool has_received_ = false;
 };
 

@@ -125,6 +125,18 @@ TEST_F(VirtualRunTest, EndsInTheStateOfTheSameCellOverRealSockets) {
   }
 }
 
+TEST_F(VirtualRunTest, ReportsHowEvenlyClientsWereUpdated) {
+  const Cell cell = first_cell();
+  run(cell);
+  const nlohmann::json server = report(cell, "server");
+  const double least = server.at("times_updated_min"), mean = server.at("times_updated_mean"),
+               most = server.at("times_updated_max"), ticks = server.at("ticks");
+  EXPECT_LE(least, mean);
+  EXPECT_LE(mean, most);
+  EXPECT_GT(most, 0.0);
+  EXPECT_LE(most, ticks + 1.0);
+}
+
 TEST_F(VirtualRunTest, EndsAsInvalidWhereThePhysicsHasTooManyEvents) {
   settings_.virtual_events_per_s = 20;
   const Cell cell = first_cell();

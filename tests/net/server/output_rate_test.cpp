@@ -172,7 +172,14 @@ TEST(OutputRates, ThatChangeAsTheGameGoesOnLeaveEveryClientWithTheTruth) {
 TEST(OutputRates, ClientsTakeTurnsEvenly) {
   RatedCrowd crowd("periodic", "none", 20.0);
   std::map<std::uint64_t, int> by_phase;
+  const auto times_updated = [&crowd](std::uint32_t player) {
+    return crowd.rink.execution().times_updated(*crowd.rink.server().seats().federate_of(player));
+  };
+  std::vector<std::uint64_t> before;
+  for (std::uint32_t k = 0; k < crowd.rink.client_count(); ++k) before.push_back(times_updated(k));
   for (int tick = 0; tick < 60; ++tick) crowd.tick([](std::size_t, const im::Region&) {});
+  for (std::uint32_t k = 0; k < before.size(); ++k)
+    EXPECT_EQ(times_updated(k) - before[k], 20u) << "as the server's report counts it";
   for (const std::vector<std::uint64_t>& each : crowd.told) {
     EXPECT_EQ(each.size(), 20u);
     std::set<std::uint64_t> phases;

@@ -19,6 +19,7 @@ class ModelledServer {
  public:
   /// Parts of a tick that a tick costs whoever is told, and that telling all clients costs.
   double fixed = 0.1, telling = 0.5;
+  double whoever = 0.0;  ///< of telling, what it costs however many are told
   double stall_s = 0.0;  ///< by which the next tick takes longer
 
   void run(double seconds) {
@@ -30,10 +31,11 @@ class ModelledServer {
     ticks_left_out += left_out;
     number += left_out;
     const double begin_s = now_s = std::max(now_s, due_s());
-    now_s += tick_s * (fixed + telling / control.divisor()) + stall_s;
+    const double telling_s = tick_s * (whoever + telling / control.divisor());
+    now_s += tick_s * fixed + telling_s + stall_s;
     stall_s = 0.0;
     behind_max_s = std::max(behind_max_s, now_s - due_s());
-    if (control.ticked(due_s(), begin_s, now_s)) divisors.push_back(control.divisor());
+    if (control.ticked(due_s(), begin_s, now_s, telling_s)) divisors.push_back(control.divisor());
     is_on_time = now_s <= due_s() + tick_s;
     ++number;
   }
@@ -108,6 +110,57 @@ TEST(OverloadControl, TicksAreLeftOutWhereEvenThatDoesNotDo) {
   EXPECT_GT(server.ticks_left_out, 1000u);
   EXPECT_LE(server.behind_max_s, 1.0 + 42.0 * tick_s);
   EXPECT_NEAR(server.due_s(), server.now_s, 1.1) << "the game goes on at full pace";
+}
+
+/// Each client told at one tick of sixteen, which take half a second each, would wait 8 s for news
+/// of what telling everybody adds a third of a second to.
+TEST(OverloadControl, WhereTheGameAloneTakesTooLongClientsAreToldAsOftenAsBefore) {
+  ModelledServer server;
+  server.fixed = 30.0, server.telling = 20.0;
+  server.run(60.0);
+  EXPECT_EQ(server.control.divisor_reached(), 1u);
+}
+
+TEST(OverloadControl, WhereItDoesAndSoDoesTellingHalfOfTheTimeIsForTelling) {
+  ModelledServer server;
+  server.fixed = 10.0, server.telling = 21.0;
+  server.run(60.0);
+  EXPECT_EQ(server.control.divisor(), 2u);
+  server.run(600.0);
+  EXPECT_EQ(server.divisors.size(), 1u) << "it does not swing";
+}
+
+TEST(OverloadControl, WhenTheGameGrowsTooLongClientsAreToldMoreOftenAgain) {
+  ModelledServer server;
+  server.fixed = 0.5, server.telling = 10.0;
+  server.run(20.0);
+  EXPECT_EQ(server.control.divisor_reached(), 16u);
+  server.fixed = 30.0;
+  server.run(60.0);
+  EXPECT_EQ(server.control.divisor(), 1u) << "telling all takes a quarter of the time";
+}
+
+/// Of telling only a part shrinks with the divisor.
+TEST(OverloadControl, EachClientIsToldWithinTwoSecondsIfThatCanBe) {
+  ModelledServer server;
+  server.fixed = 0.5, server.telling = 12.0;
+  server.run(20.0);
+  EXPECT_EQ(server.control.divisor(), 16u);
+  server.fixed = 6.0, server.whoever = 6.0;
+  server.run(120.0);
+  EXPECT_LE(server.control.divisor() * (12.0 + 12.0 / server.control.divisor()) * tick_s, 2.0);
+  EXPECT_GE(server.control.divisor(), 4u);
+  const std::vector<std::uint32_t> settled = server.divisors;
+  server.run(600.0);
+  EXPECT_EQ(server.divisors, settled) << "it does not swing";
+}
+
+TEST(OverloadControl, WhatTellingLessOftenMendsIsMended) {
+  ModelledServer server;
+  server.fixed = 0.7, server.telling = 0.5;
+  server.run(20.0);
+  EXPECT_TRUE(server.is_on_time);
+  EXPECT_GT(server.control.divisor(), 1u);
 }
 
 /// A load of which nobody can say whether it fits: it is tried ever more rarely.

@@ -22,6 +22,15 @@ TEST(Seats, AreFoundByNameAndElseTheFirstThatIsFree) {
   EXPECT_EQ(seats.player_count(), 3u);
 }
 
+TEST(Seats, BearTheNamesOfBatsAndNoOthers) {
+  const Seats seats(12);
+  EXPECT_EQ(seats.named("bat-0"), 0u);
+  EXPECT_EQ(seats.named("bat-11"), 11u);
+  for (const char* other : {"", "bat", "bat-", "bat-12", "bat-01", "bat--1", "bat-1 ", "7", "cat-7",
+                            "bat-4294967297", "bat-99999999999999999999"})
+    EXPECT_EQ(seats.named(other), std::nullopt) << other;
+}
+
 TEST(Seats, NameTheFederateOfAPlayerUntilItLeaves) {
   Seats seats(2);
   seats.enter(first, 1);

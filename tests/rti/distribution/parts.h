@@ -15,7 +15,10 @@ namespace rink::rti {
 
 /// Federate 0 owns a body and a puck, each with a region of its own; federate 1 subscribes.
 struct Parts {
-  explicit Parts(const im::Traits& traits = {}, std::size_t budget = 0) : filter(traits, budget) {
+  explicit Parts(const im::Traits& traits = {}, std::size_t budget = 0,
+                 std::size_t newcomer_pairs_max = 1000)
+      : filter(traits, budget),
+        subscriptions(plain_fom(), regions, filter, facts, newcomer_pairs_max) {
     for (const std::uint32_t federate : {0u, 1u}) {
       facts.add_federate(federate);
       regions.add_federate(federate);
@@ -61,7 +64,7 @@ struct Parts {
   FilterFacts facts{filter};
   DistributionCounters counters;
   RegionTable regions{plain_fom(), objects, filter, facts, counters};
-  Subscriptions subscriptions{plain_fom(), regions, filter, facts};
+  Subscriptions subscriptions;
   TurnPlanner turns{filter, objects, regions, subscriptions, facts};
   Scopes scopes;
   ScopeMatcher matcher{{.objects = objects,

@@ -53,18 +53,18 @@ TEST(FrameOutbox, RefusesStrangersAndThoseWhoHaveLeft) {
 
 TEST(LinkWatch, WaitsForASilentRtiAndBeatsWhenIdle) {
   LinkWatch watch(Timeouts{1.0, 5.0});
-  watch.advance(100.0, false);
+  watch.advance(100.0, false, false);
   EXPECT_FALSE(watch.is_rti_lost()) << "the clock starts where it is first set";
-  watch.advance(101.0, false);
+  watch.advance(101.0, false, false);
   EXPECT_TRUE(watch.is_heartbeat_due());
   watch.beat();
   EXPECT_FALSE(watch.is_heartbeat_due());
   watch.received();
-  watch.advance(104.0, true);
+  watch.advance(104.0, true, false);
   EXPECT_FALSE(watch.is_heartbeat_due()) << "something waits to go out";
-  watch.advance(109.0, false);
+  watch.advance(109.0, false, false);
   EXPECT_FALSE(watch.is_rti_lost()) << "5 s since it was heard";
-  watch.advance(109.5, false);
+  watch.advance(109.5, false, false);
   EXPECT_TRUE(watch.is_rti_lost());
 }
 

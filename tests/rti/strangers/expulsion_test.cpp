@@ -176,5 +176,24 @@ TEST(Expulsion, AStallIsNotTheOthersSilence) {
   EXPECT_EQ(bare.drops(Violation::silent), 1u);
 }
 
+/// A process with more to read than it manages has not heard all that was said.
+TEST(Expulsion, WhatWaitsUnreadIsNotSilence) {
+  Recorder heard;
+  Ambassador busy(harbour(), heard);
+  busy.join("rink", "busy", "tester");
+  for (double now = 100.0; now < 130.0; now += 0.25) busy.advance_clock(now, true);
+  EXPECT_EQ(heard.lost, "");
+  for (double now = 130.0; now < 135.5; now += 0.25) busy.advance_clock(now);
+  EXPECT_NE(heard.lost, "") << "who has read all knows";
+
+  Bare bare;
+  bare.enter(1, "unread");
+  bare.execution.advance_clock(1.0);
+  for (double now = 2.0; now < 30.0; now += 1.0) bare.execution.advance_clock(now, true);
+  EXPECT_EQ(bare.execution.federate_count(), 2u);
+  for (double now = 30.0; now < 37.0; now += 1.0) bare.execution.advance_clock(now);
+  EXPECT_EQ(bare.execution.federate_count(), 0u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing

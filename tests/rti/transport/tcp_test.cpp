@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <thread>
 
 #include "tests/rti/rig.h"
 
@@ -127,6 +128,50 @@ TEST(Tcp, AReaderThatNeverReadsIsClosedAtItsQueuesLimit) {
   EXPECT_EQ(here.reason, CloseReason::queue_full);
   EXPECT_LE(server.counters(here.last).bytes_sent, 1'000'000u)
       << "the kernel's own queue for it is bounded too";
+}
+
+/// What waits unread at the one that closes makes the kernel reset the connection, which the other
+/// notices at a write, before it has read the last words.
+TEST(Tcp, LastWordsAreHeardHoweverTheEndIsNoticed) {
+  TcpTransport server, client;
+  Tally here, there;
+  const ConnectionId connection = client.connect("127.0.0.1", server.listen("127.0.0.1", 0));
+  while (here.opened == 0 || there.opened == 0) client.poll(1ms, there), server.poll(1ms, here);
+  const std::vector<std::byte> words(100), chunk(10'000);
+  const Bytes last = words, part = chunk;
+  for (int i = 0; i < 20; ++i) server.send(here.last, std::span(&part, 1));
+  client.send(connection, std::span(&last, 1));
+  client.close(connection);
+  for (int i = 0; i < 20; ++i) {
+    server.send(here.last, std::span(&part, 1));
+    std::this_thread::sleep_for(1ms);
+  }
+  for (int i = 0; i < 1'000 && here.closed == 0; ++i) server.poll(1ms, here);
+  EXPECT_EQ(here.bytes, words.size());
+  EXPECT_EQ(here.closed, 1);
+  EXPECT_EQ(here.reason, CloseReason::closed_by_peer);
+}
+
+TEST(Tcp, APollThatEndsAtItsLimitSaysThatMoreMayWait) {
+  TcpSettings settings;
+  settings.bytes_per_poll = 10'000;
+  TcpTransport server, client(settings);
+  Tally here, there;
+  constexpr int peers = 5;
+  const std::uint16_t port = server.listen("127.0.0.1", 0);
+  for (int k = 0; k < peers; ++k) client.connect("127.0.0.1", port);
+  while (here.opened < peers || there.opened < peers)
+    client.poll(1ms, there), server.poll(1ms, here);
+  EXPECT_FALSE(client.is_behind());
+  const std::vector<std::byte> chunk(8'000);
+  const Bytes part = chunk;
+  for (ConnectionId k = 0; k < peers; ++k) server.send(k, std::span(&part, 1));
+  client.poll(1s, there);
+  EXPECT_TRUE(client.is_behind());
+  for (int k = 0; k < 100 && (there.bytes < peers * chunk.size() || client.is_behind()); ++k)
+    client.poll(10ms, there);
+  EXPECT_EQ(there.bytes, peers * chunk.size());
+  EXPECT_FALSE(client.is_behind());
 }
 
 TEST(Tcp, ManyFilesAreRaisedOrNamed) {

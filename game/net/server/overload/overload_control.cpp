@@ -15,11 +15,23 @@ constexpr std::array<std::uint32_t, 8> steps{1, 2, 3, 4, 6, 8, 12, OverloadContr
 /// Of a tick's length, what ticks take at most that make up for those that were late.
 constexpr double catches_up = 0.9;
 
+/// Part of the time below which clients are told more often where the game alone takes too long:
+/// told at most twice as often, they take no more than half.
+constexpr double telling_min = 0.25;
+
 /// The least step that is at least `divisor`, or the last.
 std::uint32_t step_from(double divisor) {
   for (const std::uint32_t each : steps)
     if (each >= divisor) return each;
   return steps.back();
+}
+
+/// The last step that is at most `divisor`, or 1.
+std::uint32_t step_to(double divisor) {
+  std::uint32_t last = 1;
+  for (const std::uint32_t each : steps)
+    if (each <= divisor) last = each;
+  return last;
 }
 
 std::uint32_t step_below(std::uint32_t divisor) {
@@ -38,7 +50,7 @@ OverloadControl::OverloadControl(const Settings& settings)
   assert(0.0 < settings.load_max && settings.load_max < 1.0);
 }
 
-bool OverloadControl::ticked(double due_s, double begin_s, double end_s) {
+bool OverloadControl::ticked(double due_s, double begin_s, double end_s, double telling_s) {
   assert(begin_s <= end_s);
   const bool is_late = end_s > due_s + settings_.tick_s;
   (is_late ? calm_ : late_) = {};
@@ -48,6 +60,7 @@ bool OverloadControl::ticked(double due_s, double begin_s, double end_s) {
     return false;
   }
   stretch.busy_s += end_s - begin_s;
+  stretch.telling_s += telling_s;
   if (!is_late) return speed_up(end_s);
   if (end_s < stretch.from_s + settings_.late_s) return false;
   return slow_down(end_s);
@@ -57,16 +70,38 @@ bool OverloadControl::ticked(double due_s, double begin_s, double end_s) {
 /// receiving included. What a tick costs beside telling clients is unknown, so that one step may
 /// not do; the next follows after as long.
 bool OverloadControl::slow_down(double end_s) {
-  const double load =
-      (end_s - late_.from_s) / (static_cast<double>(late_.ticks - 1) * settings_.tick_s);
+  const double ticks = static_cast<double>(late_.ticks - 1),
+               between_s = (end_s - late_.from_s) / ticks, telling_s = late_.telling_s / ticks,
+               load = between_s / settings_.tick_s;
   late_ = {};
   // After a stall, and after ticks were left out, the ticks catch up by themselves.
-  if (load < catches_up || divisor_ == divisor_max) return false;
+  if (load < catches_up) return false;
+  if (between_s - telling_s >= catches_up * settings_.tick_s)
+    return share_out(between_s, telling_s);
+  divisor_most_ = divisor_max;
+  const std::uint32_t wanted = step_from(std::max(divisor_ + 1.0, divisor_ * load));
+  if (wanted <= divisor_) return false;
   const bool is_relapse = has_sped_up_ && end_s < sped_up_s_ + 2.0 * calm_needed_s_;
   calm_needed_s_ =
       is_relapse ? std::min(2.0 * calm_needed_s_, settings_.calm_max_s) : settings_.calm_s;
   has_sped_up_ = false;
-  return change_to(step_from(std::max(divisor_ + 1.0, divisor_ * load)));
+  return change_to(wanted);
+}
+
+/// The game alone takes longer than there is, so that no divisor brings the ticks in time: they
+/// come every `between_s`, of which `telling_s` [s] are for clients. These are told half of the
+/// time, as long as each is told within `told_within_s`: rare turns of ever longer ticks left
+/// clients without news for half a minute.
+bool OverloadControl::share_out(double between_s, double telling_s) {
+  const double within_s = settings_.told_within_s, game_s = between_s - telling_s;
+  if (divisor_ > 1 && (telling_s < telling_min * between_s || divisor_ * between_s > within_s)) {
+    divisor_most_ = std::min(step_below(divisor_), step_to(within_s / between_s));
+    return change_to(divisor_most_);
+  }
+  const std::uint32_t wanted =
+      std::min({step_to(divisor_ * telling_s / game_s),
+                step_to((within_s - divisor_ * telling_s) / game_s), divisor_most_});
+  return wanted > divisor_ && change_to(wanted);
 }
 
 /// Work grows at most as the turns do.
@@ -79,6 +114,7 @@ bool OverloadControl::speed_up(double end_s) {
   if (load * divisor_ > settings_.load_max * next) return false;
   has_sped_up_ = true;
   sped_up_s_ = end_s;
+  divisor_most_ = divisor_max;
   return change_to(next);
 }
 

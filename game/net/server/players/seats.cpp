@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
+#include <system_error>
 
 #include "game/replication/names.h"
 
@@ -27,10 +29,16 @@ std::optional<rti::FederateHandle> Seats::take_waiting(std::uint64_t token) {
   return federate;
 }
 
+/// By the number at the end of the name: comparing it with all bats' names took 7 % of the time in
+/// which 2,500 players joined.
 std::optional<std::uint32_t> Seats::named(std::string_view federate_name) const {
-  for (std::uint32_t player = 0; player < is_taken_.size(); ++player)
-    if (federate_name == bat_name(player)) return player;
-  return std::nullopt;
+  const char* const end = federate_name.data() + federate_name.size();
+  const std::size_t digits = federate_name.find_last_not_of("0123456789") + 1;
+  std::uint32_t player = 0;
+  const auto read = std::from_chars(federate_name.data() + digits, end, player);
+  if (read.ec != std::errc() || player >= is_taken_.size() || federate_name != bat_name(player))
+    return std::nullopt;
+  return player;
 }
 
 std::optional<std::uint32_t> Seats::free(std::string_view federate_name) const {
