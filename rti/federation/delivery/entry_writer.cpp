@@ -116,7 +116,7 @@ void EntryWriter::write_entry(FlushContext& context, const Due& due, Blocks& blo
       {object.object_class, set.bits, again.bits, former.bits}, object.handle.value,
       is_discovered ? EntryForm::discovered : EntryForm::known, [&] {
         for (const AttributeHandle each : set.without(again)) {
-          const Bytes value = encoded(each);
+          const Bytes value = basis_.objects.value(due.slot, each);
           if (former.contains(each)) {
             const std::uint8_t number = *last.former(object.object_class, each, value);
             last.recall(object.object_class, each, number);
@@ -132,22 +132,19 @@ void EntryWriter::write_entry(FlushContext& context, const Due& due, Blocks& blo
 AttributeSet EntryWriter::recalled(const EntryValues& last, ObjectSlot object,
                                    AttributeSet set) const {
   const AttributeSet statics = set & basis_.objects.settled_static(object);
+  const std::uint16_t object_class = basis_.objects[object].object_class;
   AttributeSet former;
   for (const AttributeHandle each : statics)
-    if (last.former(basis_.objects[object].object_class, each, encoded(each))) former.insert(each);
+    if (last.former(object_class, each, basis_.objects.value(object, each))) former.insert(each);
   return former;
 }
 
-AttributeSet EntryWriter::repeated(const EntryValues& last, ObjectSlot object, AttributeSet set) {
+AttributeSet EntryWriter::repeated(const EntryValues& last, ObjectSlot object,
+                                   AttributeSet set) const {
+  const std::uint16_t object_class = basis_.objects[object].object_class;
   AttributeSet again;
-  values_.clear();
-  for (const AttributeHandle each : set) {
-    const std::size_t begin = values_.size();
-    basis_.objects.append(object, {each}, values_);
-    if (each.value >= places_.size()) places_.resize(each.value + std::size_t{1});
-    places_[each.value] = {begin, values_.size()};
-    if (last.repeats(basis_.objects[object].object_class, each, encoded(each))) again.insert(each);
-  }
+  for (const AttributeHandle each : set)
+    if (last.repeats(object_class, each, basis_.objects.value(object, each))) again.insert(each);
   return again;
 }
 

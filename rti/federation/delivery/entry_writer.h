@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "rti/baselines/residual_states.h"
@@ -53,19 +52,13 @@ class EntryWriter {
   AttributeSet fitting(ObjectSlot object, AttributeSet set) const;
   void write_update(FlushContext& context, const Due& due, Blocks& blocks);
   void write_entry(FlushContext& context, const Due& due, Blocks& blocks);
-  /// Encodes the values of `set`. Those whose values are the ones of the class's last entry.
-  AttributeSet repeated(const EntryValues& last, ObjectSlot object, AttributeSet set);
-  /// Static ones of those encoded whose values an entry of the class brought before.
+  /// Those whose values are the ones of the class's last entry.
+  AttributeSet repeated(const EntryValues& last, ObjectSlot object, AttributeSet set) const;
+  /// Static ones whose values an entry of the class brought before.
   AttributeSet recalled(const EntryValues& last, ObjectSlot object, AttributeSet set) const;
-  Bytes encoded(AttributeHandle attribute) const {
-    const auto [begin, end] = places_[attribute.value];
-    return Bytes(values_).subspan(begin, end - begin);
-  }
 
   FederationBasis basis_;
   Uses uses_;
-  std::vector<std::byte> values_;                            ///< of one object
-  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< in these, by attribute
 };
 
 }  // namespace rink::rti
