@@ -116,15 +116,16 @@ bool FederationDirectory::handle_waiting(ConnectionId id) {
   std::size_t taken = 0;
   while (connection.is_connected && connection.execution == nullptr) {
     const Bytes rest = Bytes(connection.waiting).subspan(taken);
-    if (rest.size() < frame_header_size) break;
-    const std::size_t size = frame_length(rest);
-    if (size == 0 || size > frame_max_to_join) return false;
-    if (rest.size() < frame_header_size + size) break;
-    const Bytes frame = rest.subspan(frame_header_size, size);
+    const std::optional<FrameHead> head = read_frame_head(rest);
+    if (!head) break;
+    if (head->length == 0 || head->length > frame_max_to_join) return false;
+    const std::size_t size = head->size + head->length;
+    if (rest.size() < size) break;
+    const Bytes frame = rest.subspan(head->size, head->length);
     connection.has_spoken = true;  // by a whole frame: a byte now and then is no sign of life
     const bool is_join = static_cast<MessageKind>(frame[0]) == MessageKind::join;
     if (is_join ? !lead(id, frame) : !handle_frame(id, frame)) return false;
-    if (!is_join) taken += frame_header_size + size;
+    if (!is_join) taken += size;
   }
   std::vector<std::byte> waiting = std::move(connection.waiting);
   connection.waiting.clear();
@@ -236,10 +237,10 @@ void FederationDirectory::match() {
   for (const auto& execution : executions_) execution->match();
 }
 
-/// One frame lists every execution.
+/// One answer lists every execution.
 void FederationDirectory::answer_queries(Outlet& outlet) {
   if (management_queries_.empty()) return;
-  FrameWriter frame(frame_max_to_federate);
+  FrameWriter frame(older_frame_max, FrameForm::older);
   const auto append = [&frame](auto message) {
     write(frame.begin_message(measure(message)), message);
     frame.appended();

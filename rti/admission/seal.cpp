@@ -59,7 +59,8 @@ void Seal::seal(std::span<const Bytes> parts, FrameWriter& records) {
   for (Bytes rest; left > 0;) {
     const std::size_t size = std::min(left, sealed_bytes_max);
     left -= size;
-    std::vector<std::byte>& record = records.begin_message(size + seal_tag_size);
+    std::vector<std::byte>& record = records.begin_message(1 + size + seal_tag_size);
+    record.push_back(record_mark);
     for (std::size_t wanted = size; wanted > 0;) {
       while (rest.empty()) rest = *part++;
       const Bytes taken = rest.first(std::min(rest.size(), wanted));
@@ -83,7 +84,8 @@ void Seal::seal_datagram(const Datagram& datagram, std::vector<std::byte>& seale
 }
 
 bool SealReader::open(Bytes record, std::vector<std::byte>& bytes) {
-  return opens(record, key_, number_of(stream, records_++), bytes);
+  return !record.empty() && record.front() == record_mark &&
+         opens(record.subspan(1), key_, number_of(stream, records_++), bytes);
 }
 
 bool SealReader::is_new(std::uint64_t number) const {

@@ -15,7 +15,9 @@ using SessionKey = std::array<std::byte, 32>;
 
 inline constexpr std::size_t seal_tag_size = 16;
 inline constexpr std::size_t sealed_bytes_max = 16 * 1024;  ///< in one record
-inline constexpr std::size_t seal_record_max = sealed_bytes_max + seal_tag_size;
+/// What a record begins with: a frame's head is not told from an older one by sealed bytes.
+inline constexpr std::byte record_mark{1};
+inline constexpr std::size_t seal_record_max = 1 + sealed_bytes_max + seal_tag_size;
 /// What a seal adds to a datagram [bytes].
 inline constexpr std::size_t datagram_seal_size = sizeof(std::uint64_t) + seal_tag_size;
 

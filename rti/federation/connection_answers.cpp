@@ -86,7 +86,14 @@ void Connections::send_reports(Outlet& outlet) {
   const FederationReport whole = report(&outlet);
   for (const ConnectionId id : report_queries_) {
     if (is_unknown(id)) continue;
-    FrameWriter frame(frame_max_to_federate);
+    if (is_joined(id)) {
+      std::vector<std::byte>& head = basis_.federates[connections_[id].federate].outbox.head();
+      const auto append = [&head](auto message) { write(head, message); };
+      for_each_message(whole, append);
+      append(ReportEndMessage{});
+      continue;
+    }
+    FrameWriter frame(older_frame_max, FrameForm::older);
     const auto append = [&frame](auto message) {
       write(frame.begin_message(measure(message)), message);
       frame.appended();
@@ -94,12 +101,7 @@ void Connections::send_reports(Outlet& outlet) {
     for_each_message(whole, append);
     append(ReportEndMessage{});
     const Bytes bytes = frame.bytes();
-    if (!is_joined(id)) {
-      outlet.send(id, std::span(&bytes, 1));
-      continue;
-    }
-    std::vector<std::byte>& head = basis_.federates[connections_[id].federate].outbox.head();
-    head.insert(head.end(), bytes.begin() + frame_header_size, bytes.end());
+    outlet.send(id, std::span(&bytes, 1));
   }
   report_queries_.clear();
 }

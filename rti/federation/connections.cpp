@@ -94,7 +94,8 @@ void Connections::receive(ConnectionId id, Bytes bytes) {
   Status status;
   const auto limit = [&] { return is_joined(id) ? frame_max_to_rti : frame_max_to_join; };
   const auto take = [&](Bytes frame) {
-    status = handle_frame(id, frame);
+    if (is_joined(id) && reader.form() == FrameForm::older) status = Violation::malformed;
+    else status = handle_frame(id, frame);
     return !status && !is_unknown(id);
   };
   const Framing framing = reader.receive(bytes, limit, take);

@@ -179,18 +179,19 @@ std::size_t ObjectTable::size_of(ObjectSlot slot, AttributeSet set) const {
   return size;
 }
 
-void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const {
+Bytes ObjectTable::value(ObjectSlot slot, AttributeHandle attribute) const {
   const Object& object = objects_[slot];
-  assert(object.valued.includes(set));
-  const Layout& layout = layouts_[object.object_class];
-  const ObjectClass& object_class = fom_.object_classes()[object.object_class];
+  const std::size_t index = attribute.value;
+  const Attribute& declared = fom_.object_classes()[object.object_class].attributes[index];
+  if (!is_fixed(declared)) return object.varying[index];
+  return Bytes(object.fixed).subspan(layouts_[object.object_class].offsets[index], *declared.size);
+}
+
+void ObjectTable::append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const {
+  assert(objects_[slot].valued.includes(set));
   for (const AttributeHandle each : set) {
-    const std::size_t index = each.value;
-    const Attribute& attribute = object_class.attributes[index];
-    const Bytes value = is_fixed(attribute)
-                            ? Bytes(object.fixed).subspan(layout.offsets[index], *attribute.size)
-                            : Bytes(object.varying[index]);
-    bytes.insert(bytes.end(), value.begin(), value.end());
+    const Bytes one = value(slot, each);
+    bytes.insert(bytes.end(), one.begin(), one.end());
   }
 }
 

@@ -79,6 +79,8 @@ class ObjectTable {
 
   /// `coded` must be the values of `set` as they travel.
   void store(ObjectSlot slot, AttributeSet set, Bytes coded);
+  /// The coded value of an attribute, which must have one; valid until the next is stored.
+  Bytes value(ObjectSlot slot, AttributeHandle attribute) const;
   /// Appends the coded values of `set`, all of which must be valued.
   void append(ObjectSlot slot, AttributeSet set, std::vector<std::byte>& bytes) const;
   /// The static attributes of the object if each has the only value that it ever had: who was sent

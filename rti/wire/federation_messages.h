@@ -34,10 +34,11 @@ inline std::vector<FederateHandle> handles_of(const HandleList& list) {
   return handles;
 }
 
-/// `message` in a frame of its own, for a connection that has not joined.
+/// `message` in a frame of its own, of a form that every version reads: for a connection that has
+/// not joined, or may not have.
 template <class Message>
 std::vector<std::byte> framed(Message message) {
-  FrameWriter frame(frame_max_to_federate);
+  FrameWriter frame(older_frame_max, FrameForm::older);
   write(frame.begin_message(measure(message)), message);
   frame.appended();
   return {frame.bytes().begin(), frame.bytes().end()};

@@ -21,7 +21,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 11;
+inline constexpr std::uint16_t protocol_version = 12;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
@@ -224,17 +224,22 @@ bool exchange(Stream& stream, UpdatesMessage& message) {
   return stream.varint(message.object_class) && attribute_bits(stream, message.attributes);
 }
 /// Begins a block of objects that come into scope with these attributes (rti/wire/entry_block.h).
-/// Values of the repeated ones do not follow: they are those of the class's last entry.
+/// Values of the repeated ones do not follow: they are those of the class's last entry. Of the
+/// recalled ones a byte follows, which names a value that an entry of the class brought before.
 struct EntriesMessage {
   static constexpr MessageKind kind = MessageKind::entries;
   std::uint16_t object_class = 0;
-  AttributeBits attributes = 0, repeated = 0;
+  AttributeBits attributes = 0, repeated = 0, recalled = 0;
   friend bool operator==(const EntriesMessage&, const EntriesMessage&) = default;
 };
 template <class Stream>
 bool exchange(Stream& stream, EntriesMessage& message) {
-  return stream.varint(message.object_class) && attribute_bits(stream, message.attributes) &&
-         attribute_bits(stream, message.repeated);
+  std::uint32_t head = message.object_class * 2u + (message.recalled != 0 ? 1u : 0u);
+  if (!stream.varint(head) || !stream.check(head >> 17 == 0)) return false;
+  message.object_class = static_cast<std::uint16_t>(head >> 1);
+  return attribute_bits(stream, message.attributes) && attribute_bits(stream, message.repeated) &&
+         ((head & 1u) == 0 ||
+          (attribute_bits(stream, message.recalled) && stream.check(message.recalled != 0)));
 }
 using EntriesAgainMessage = BareMessage<MessageKind::entries_again>;
 

@@ -12,10 +12,11 @@
 namespace rink::rti {
 
 /// The last stamp that was sent by steps, and the step from it to the next: both ends change it by
-/// the same messages. Times count as the whole numbers that their bits are, so ticks of one period
-/// are nearly equal steps, and nothing is rounded.
+/// the same messages. A tick of one period leads to a time that differs by a few units of the last
+/// place from the one before and a step, and their bits by so much: nothing is rounded.
 struct StampSteps {
-  std::uint64_t time = 0, tag = 0, time_step = 0, tag_step = 0;
+  double time = 0.0, time_step = 0.0;
+  std::uint64_t tag = 0, tag_step = 0;
 };
 
 /// So many steps onwards, and what is still between; no steps: the difference, which is the next
@@ -39,25 +40,33 @@ bool exchange(Stream& stream, StampStepMessage& message) {
          stream.varint(message.tag);
 }
 
+inline double steps_on(const StampSteps& steps, std::uint64_t count) {
+  return count == 0 ? steps.time : steps.time + static_cast<double>(count) * steps.time_step;
+}
+
 /// False if the message leads to no stamp.
 inline bool follow(StampSteps& steps, const StampStepMessage& message, Stamp& stamp) {
-  const auto time = static_cast<std::uint64_t>(from_zigzag(message.time)),
+  const auto rest = static_cast<std::uint64_t>(from_zigzag(message.time)),
              tag = static_cast<std::uint64_t>(from_zigzag(message.tag));
-  if (message.count == 0) steps.time_step = time, steps.tag_step = tag;
-  steps.time += message.count * steps.time_step + time;
+  const auto time =
+      std::bit_cast<double>(std::bit_cast<std::uint64_t>(steps_on(steps, message.count)) + rest);
+  if (!std::isfinite(time)) return false;
+  if (message.count == 0) steps.time_step = time - steps.time, steps.tag_step = tag;
+  steps.time = time;
   steps.tag += message.count * steps.tag_step + tag;
-  stamp = {std::bit_cast<double>(steps.time), steps.tag};
-  return std::isfinite(stamp.time);
+  stamp = {steps.time, steps.tag};
+  return true;
 }
 
 /// The message that leads to `stamp` by steps; nothing if it would be no shorter than a new step.
 inline std::optional<StampStepMessage> steps_to(const StampSteps& steps, const Stamp& stamp) {
   constexpr std::int64_t rest_max = 1 << 20;
-  const std::uint64_t time = std::bit_cast<std::uint64_t>(stamp.time) - steps.time;
-  if (steps.time_step == 0) return std::nullopt;
-  const std::uint64_t count = (time + steps.time_step / 2) / steps.time_step;
-  if (count == 0 || count > StampStepMessage::count_max) return std::nullopt;
-  const auto time_rest = static_cast<std::int64_t>(time - count * steps.time_step),
+  const double steps_between = std::round((stamp.time - steps.time) / steps.time_step);
+  if (!(steps_between >= 1.0 && steps_between <= StampStepMessage::count_max)) return std::nullopt;
+  const auto count = static_cast<std::uint64_t>(steps_between);
+  const auto time_rest =
+                 static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(stamp.time) -
+                                           std::bit_cast<std::uint64_t>(steps_on(steps, count))),
              tag_rest = static_cast<std::int64_t>(stamp.tag - steps.tag - count * steps.tag_step);
   if (time_rest > rest_max || time_rest < -rest_max || tag_rest > rest_max || tag_rest < -rest_max)
     return std::nullopt;
@@ -66,7 +75,8 @@ inline std::optional<StampStepMessage> steps_to(const StampSteps& steps, const S
 /// The message that makes the way to `stamp` the next step.
 inline StampStepMessage step_to(const StampSteps& steps, const Stamp& stamp) {
   return {0,
-          zigzag(static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(stamp.time) - steps.time)),
+          zigzag(static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(stamp.time) -
+                                           std::bit_cast<std::uint64_t>(steps.time))),
           zigzag(static_cast<std::int64_t>(stamp.tag - steps.tag))};
 }
 

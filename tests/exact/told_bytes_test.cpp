@@ -67,7 +67,7 @@ TEST(ToldBytes, WhoSeesAllOfTheCrowdIsSentLessUnderOnEventThanUnderAnyOther) {
 
 TEST(ToldBytes, AViewOfATwentiethIsSentLessUnderOnEventThanUnderAnyOther) {
   const double on_event = told("on-event", 20.0, 0.05, 6.0);
-  EXPECT_LT(on_event, 1850.0);
+  EXPECT_LT(on_event, 1750.0);
   EXPECT_LT(on_event, told("dead-reckoning", 20.0, 0.05, 6.0));
   EXPECT_LT(on_event, told("snapshot", 20.0, 0.05, 6.0));
 }

@@ -93,9 +93,9 @@ class Sound final : public Outlet {
         victim_->receive(framed(rti::testing::OneObject<MessageKind::in_scope>{each.value}));
       }
     }
-    if (changes != 0 && frame.size() > frame_header_size)
-      frame[frame_header_size + change_at % (frame.size() - frame_header_size)] ^=
-          static_cast<std::byte>(changes);
+    const std::size_t head = frame_head_size(0);
+    if (changes != 0 && frame.size() > head)
+      frame[head + change_at % (frame.size() - head)] ^= static_cast<std::byte>(changes);
     victim_->receive(frame);
     victim_->clear_outgoing();
   }
@@ -135,12 +135,12 @@ void refuse_baselines(Bytes bytes) {
                                           {0.1 * i, 0});
       sound.tick();
     }
-    std::vector<std::byte> said =
-        framed(AcknowledgeKeyframeMessage{static_cast<std::uint16_t>(input.byte())});
+    std::vector<std::byte> said;
+    AcknowledgeKeyframeMessage message{static_cast<std::uint16_t>(input.byte())};
+    write(said, message);
     if (is_cut) said.pop_back();
     else said.push_back(std::byte{255});
-    said[0] = static_cast<std::byte>(said.size() - frame_header_size);
-    sound.said.push_back(said);
+    sound.said.push_back(rti::testing::in_frame(said));
     sound.is_malformed = true;
     sound.tick();
     require(sound.is_dropped, "an acknowledgement that is none is the last that its sender says");
@@ -166,8 +166,12 @@ void drive_baselines(Bytes bytes) {
     }
     if (fate == 1) {  // made up
       const auto number = static_cast<std::uint16_t>(input.byte());
-      sound.said.push_back(input.byte() % 2 == 0 ? framed(AcknowledgeKeyframeMessage{number})
-                                                 : framed(RefuseKeyframeMessage{number}));
+      std::vector<std::byte> made_up;
+      AcknowledgeKeyframeMessage acknowledgement{number};
+      RefuseKeyframeMessage refusal{number};
+      if (input.byte() % 2 == 0) write(made_up, acknowledgement);
+      else write(made_up, refusal);
+      sound.said.push_back(rti::testing::in_frame(made_up));
     }
     sound.rest_contacts = fate == 2;
     if (fate == 3) sound.watch.clear_outgoing();  // forgotten

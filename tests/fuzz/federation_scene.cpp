@@ -26,10 +26,8 @@ constexpr ConnectionId strangers = 3;
 const AttributeSet all{rti::testing::position, rti::testing::speed};
 
 void frame(std::vector<std::byte>& into, Bytes payload) {
-  const auto length = static_cast<std::uint32_t>(payload.size());
-  const auto* at = reinterpret_cast<const std::byte*>(&length);
-  into.insert(into.end(), at, at + sizeof length);
-  into.insert(into.end(), payload.begin(), payload.end());
+  const std::vector<std::byte> framed = rti::testing::in_frame(payload);
+  into.insert(into.end(), framed.begin(), framed.end());
 }
 
 class Scene final : public Outlet {
@@ -102,7 +100,7 @@ class Scene final : public Outlet {
   /// Strangers in whatever state they are, and then in each state that there is, send what is
   /// malformed.
   void refuse() {
-    static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
+    static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_head_max);
     for (ConnectionId who = 1; who <= strangers; ++who)
       if (has(who)) must_drop(who, zeros);
     const auto bytes = [](std::initializer_list<unsigned> values) {
@@ -110,8 +108,14 @@ class Scene final : public Outlet {
       for (const unsigned value : values) all.push_back(static_cast<std::byte>(value));
       return all;
     };
-    const std::array malformed{bytes({0, 0, 0, 0}), bytes({1, 0, 0, 0, 255}),
-                               bytes({255, 255, 255, 255, 3}), bytes({2, 0, 0, 0, 1, 0x52})};
+    const std::array malformed{bytes({0, 0, 0, 0}),
+                               bytes({1, 0, 0, 0, 255}),
+                               bytes({255, 255, 255, 255, 3}),
+                               bytes({2, 0, 0, 0, 1, 0x52}),
+                               bytes({0, 0}),
+                               bytes({1, 0, 255}),
+                               bytes({2, 0, 1, 0x52}),
+                               bytes({1, 0, 0, 1})};
     for (const bool is_joined : {false, true})
       for (const std::vector<std::byte>& each : malformed) {
         if (is_joined) enter(1, 0);
@@ -153,7 +157,7 @@ class Scene final : public Outlet {
     const unsigned size = input.byte();
     spoken_.clear();
     frame(spoken_, input.part(size));
-    if (spoken_.size() > frame_header_size) say(who, spoken_);
+    if (spoken_.size() > frame_head_size(0)) say(who, spoken_);
   }
   /// A join as it should be, which no fuzzer would find.
   void enter(ConnectionId who, unsigned name) {
@@ -228,7 +232,7 @@ void refuse_federation(Bytes bytes) {
 void refuse_federate(Bytes bytes) {
   const std::vector<std::byte> unknown{std::byte{255}},
       cut{static_cast<std::byte>(MessageKind::discover_object), std::byte{7}};
-  std::vector<std::byte> empty, of_nothing, broken, oversized(frame_header_size, std::byte{255});
+  std::vector<std::byte> empty, of_nothing, broken, oversized(frame_head_max, std::byte{255});
   frame(empty, {});
   frame(of_nothing, unknown);
   frame(broken, cut);

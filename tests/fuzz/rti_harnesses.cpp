@@ -58,7 +58,7 @@ void refuse_frames(Bytes bytes) {
           part, [] { return std::size_t{1000}; }, [](Bytes) { return true; });
     };
     if (receive(bytes) != Framing::sound) continue;
-    const std::vector<std::byte> noise(1000 + 2 * frame_header_size, static_cast<std::byte>(value));
+    const std::vector<std::byte> noise(1000 + 2 * frame_head_max, static_cast<std::byte>(value));
     require(receive(noise) != Framing::sound, "a stream of frames that cannot be is refused");
   }
 }
@@ -214,7 +214,7 @@ void directories(Bytes bytes) {
 /// More zeros than the longest frame has bytes: whatever frame was begun is complete, and an empty
 /// one follows it.
 const std::vector<std::byte>& endless_zeros() {
-  static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
+  static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_head_max);
   return zeros;
 }
 

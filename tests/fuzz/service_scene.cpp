@@ -76,7 +76,7 @@ class Quay final : public Outlet {
   /// Strangers send each message of the group without its last byte, and frames without a message,
   /// and are dropped.
   void refuse(std::span<const Shape> shapes) {
-    static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_header_size);
+    static const std::vector<std::byte> zeros(frame_max_to_rti + 2 * frame_head_max);
     const auto must_drop = [this](const auto& speak) {
       if (!strangers_[1].is_here) enter(1);
       require(strangers_[1].is_here, "who joins by rule is let in");
@@ -138,8 +138,8 @@ class Quay final : public Outlet {
     ambassador.subscribe_interaction_class(rti::testing::hail);
   }
   static Bytes heartbeat() {
-    static const std::array<std::byte, 5> frame{std::byte{1}, std::byte{}, std::byte{}, std::byte{},
-                                                static_cast<std::byte>(MessageKind::heartbeat)};
+    static const std::array frame{std::byte{1}, std::byte{},
+                                  static_cast<std::byte>(MessageKind::heartbeat)};
     return frame;
   }
   /// Joins by rule, with an object of its own, which no fuzzer would find.
@@ -166,11 +166,7 @@ class Quay final : public Outlet {
   }
   void say(ConnectionId who, Bytes message) {
     if (message.empty()) return;
-    std::vector<std::byte> frame(frame_header_size + message.size());
-    const auto length = static_cast<std::uint32_t>(message.size());
-    std::memcpy(frame.data(), &length, sizeof length);
-    std::memcpy(frame.data() + frame_header_size, message.data(), message.size());
-    execution_.receive(who, frame);
+    execution_.receive(who, rti::testing::in_frame(message));
   }
 
   FederationExecution execution_;

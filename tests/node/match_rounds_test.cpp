@@ -115,7 +115,7 @@ class CountedMail final : public peer::Mail {
  public:
   CountedMail(peer::test::PostOffice& office, peer::PeerNumber number) : mail_(office, number) {}
   void send(peer::PeerNumber to, std::vector<std::uint8_t> content) override {
-    bytes += frame_head + content.size();
+    bytes += framed_size(content.size());
     mail_.send(to, std::move(content));
   }
   std::vector<std::uint8_t> receive(peer::PeerNumber from) override { return mail_.receive(from); }

@@ -171,6 +171,10 @@ class Stranger final : public rti::TransportListener {
   FrameQueue reader_;
 };
 
+constexpr const char* recorded_hello =
+    "540000000052696e6b506565720d0000005ce91684a4c39164b0cb50f53ac66fcca9b59d32bce6eeaf09000000"
+    "3132372e302e302e314bab00000000000000000000000000000000c11ef711b799f64803c3a4cefc7f83d0";
+
 TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
   Process& first = found(2, "1");
   const Fingerprint session_fingerprint = SharedGame(load_scene(scene()), {}).session_fingerprint();
@@ -191,6 +195,18 @@ TEST_F(PeerCommand, RefusesAnotherVersionAndAnotherBuildByName) {
                                            " of the peers' protocol, here it is version " +
                                            std::to_string(peer_protocol_version)));
   }
+  // The hello of version 13 as a peer of it sent it: four bytes say how long the frame is.
+  std::vector<std::byte> recorded;
+  for (const char* each = recorded_hello; *each != '\0'; each += 2)
+    recorded.push_back(static_cast<std::byte>(std::stoi(std::string(each, 2), nullptr, 16)));
+  Stranger older(place_of(first), recorded);
+  const auto answer = older.frame();
+  ASSERT_TRUE(answer);
+  const auto refused = message_from<Refused>(answer->content);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->kind, RefusalKind::wrong_version);
+  EXPECT_THAT(refused->reason,
+              HasSubstr("speaks version 13 of the peers' protocol, here it is version 14"));
   hello.version = peer_protocol_version;
   ++hello.session_fingerprint.self_test;
   const auto build = answer_to(hello);

@@ -106,7 +106,7 @@ TEST_F(PeerConnections, CarryAFrameThatIsLargerThanAQueueAndCountItsBytes) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->content, large);
   EXPECT_FALSE(guest.links.is_sending());
-  EXPECT_EQ(guest.links.bytes_sent() - before, large.size() + frame_head);
+  EXPECT_EQ(guest.links.bytes_sent() - before, framed_size(large.size()));
   EXPECT_FALSE(guest.links.send_to(7, FrameKind::mail, {1}));
 }
 

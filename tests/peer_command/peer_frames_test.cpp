@@ -18,6 +18,29 @@ TEST(PeerFrames, AreThoseOfTheRti) {
   EXPECT_TRUE(std::ranges::equal(framed(FrameKind::mail, content), writer.bytes()));
 }
 
+TEST(PeerFrames, OfNewcomersAndRefusalsHaveTheFormThatEveryVersionReads) {
+  for (const FrameKind kind : {FrameKind::hello, FrameKind::refusal}) {
+    const std::vector<std::byte> frame = framed(kind, std::vector<std::uint8_t>{1, 2});
+    const std::byte head[] = {std::byte{3}, {}, {}, {}, static_cast<std::byte>(kind)};
+    EXPECT_TRUE(std::ranges::equal(rti::Bytes(frame).first(5), head));
+  }
+  // What a peer of version 13 refuses one of version 14 with.
+  const std::string reason = "it speaks version 14 of the peers' protocol, here it is version 13";
+  std::vector<std::uint8_t> bytes{0x50, 0, 0, 0, 3, 0, 0x42, 0, 0, 0};
+  bytes.insert(bytes.end(), reason.begin(), reason.end());
+  for (const unsigned each : {0x7bu, 0x81u, 0xd2u, 0xe6u, 0x87u, 0x2bu, 0x07u, 0xddu})
+    bytes.push_back(static_cast<std::uint8_t>(each));
+  FrameQueue frames;
+  frames.add(std::as_bytes(std::span(bytes)));
+  const std::optional<Frame> frame = frames.next(stranger_frame_max);
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(frame->kind, FrameKind::refusal);
+  const auto refused = message_from<Refused>(frame->content);
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->kind, RefusalKind::wrong_version);
+  EXPECT_EQ(refused->reason, reason);
+}
+
 TEST(PeerFrames, ComeWholeHoweverTheyAreCutAndWaitUntilTheyAreTaken) {
   std::vector<std::byte> stream = framed(FrameKind::hello, std::vector<std::uint8_t>(300, 7));
   for (const std::byte byte : framed(FrameKind::sign, {})) stream.push_back(byte);
@@ -63,7 +86,15 @@ TEST(PeerFrames, BreakAtALengthOfNoneOrTooMuchAndAtAKindThatIsNone) {
   EXPECT_TRUE(is_broken({0, 0, 0, 0, 0}));
   EXPECT_TRUE(is_broken({101, 0, 0, 0}));
   EXPECT_TRUE(is_broken({1, 0, 0, 0, static_cast<std::uint8_t>(frame_kind_max) + 1}));
+  EXPECT_TRUE(is_broken({0, 0, 5}));
+  EXPECT_TRUE(is_broken({101, 0, 5}));
+  EXPECT_TRUE(is_broken({0, 0x80, 1, 0}));
+  EXPECT_TRUE(is_broken({1, 0, static_cast<std::uint8_t>(frame_kind_max) + 1}));
+  EXPECT_TRUE(is_broken({2, 0, 0, 0, static_cast<std::uint8_t>(FrameKind::mail), 7}))
+      << "only what other versions read has the older form";
+  EXPECT_TRUE(is_broken({3, 0, static_cast<std::uint8_t>(FrameKind::hello), 'R', 'i'}));
   EXPECT_FALSE(is_broken({100, 0, 0, 0}));
+  EXPECT_FALSE(is_broken({100, 0, 5}));
 }
 
 }  // namespace

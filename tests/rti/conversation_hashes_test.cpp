@@ -22,28 +22,28 @@ Hashes sail(const Course& course, std::uint64_t seed = 1) {
 
 TEST(ConversationHashes, OfDeclarations) {
   EXPECT_EQ(sail({{declare, declare, declare, register_one, update, say}, stand_by}),
-            (Hashes{0x963372a6b5f65b67u, 0xc7252664c58b9fefu, 0xde165ed1bd644377u,
-                    0x5d44ca3ea4b90cfdu, 0x39506b6a4e7faa59u, 0x1d5f77c21dbbac5eu}));
+            (Hashes{0xab93e7de1004a303u, 0x253a1678bf576032u, 0x5cb6e9c791504233u,
+                    0x897a70500fc55908u, 0x7e248c427f978138u, 0x841d5949877e48deu}));
 }
 TEST(ConversationHashes, OfObjects) {
   EXPECT_EQ(sail({{register_one, update, update, delete_one, name, ask}}),
-            (Hashes{0x78e561668e9e66f3u, 0x32d378f3796b3e98u, 0x41691d88b98f01e0u,
-                    0x708676a37a1e7cdeu, 0x48d6c9a3ea4379f9u, 0x35322ae7074bdac2u}));
+            (Hashes{0x1490d3ca960cbc7au, 0x19776ed82b47a944u, 0x4f2b901167537511u,
+                    0x4433b062cce2b1beu, 0x30dfb672c274f399u, 0xc6751100402aff49u}));
 }
 TEST(ConversationHashes, OfInteractions) {
   EXPECT_EQ(sail({{say, say, say, declare}, prepare, 200}),
-            (Hashes{0xf2c10f0cd88988b1u, 0x25caa2cb27f1632bu, 0xc7c01ddb5fafb2f1u,
-                    0xbe911ad3a79678e1u, 0xa462933994b6ba9au, 0xe50985af71a29ce1u}));
+            (Hashes{0x2362cea9a3a41541u, 0x4134f653de943cebu, 0x855b474e8cf9b921u,
+                    0x1ab2cdda4a66ad49u, 0x0f2bcc91e301b81au, 0xd2b1c8fc414dcd25u}));
 }
 TEST(ConversationHashes, OfOwnership) {
   EXPECT_EQ(sail({{trade, trade, trade, trade, register_one, update, declare}}),
-            (Hashes{0x9e1fb5c7105526a6u, 0x3c7240a2a6d6ded2u, 0x5de2db5b4351ec9du,
-                    0x0fddd5a4edba4712u, 0x92e3ffbee00117b9u, 0x5ce77dcaf48c100du}));
+            (Hashes{0x7eac0203f477e686u, 0x4fd2c265053f429du, 0x95f548e89884668fu,
+                    0xc4bfa1610532c4f4u, 0x88c369884cd95139u, 0xfe45c7a1a3c095c9u}));
 }
 TEST(ConversationHashes, OfLeaving) {
   EXPECT_EQ(sail({{register_one, trade, trade, update, synchronize, name, watch}, prepare, 12}),
-            (Hashes{0x57b3259c3bbb01cdu, 0xc0c21552b32f9373u, 0x6eed399abdbfe525u,
-                    0x3266c7efd5a1b4e5u, 0x6d2cb1bb3226fd3du, 0xc62902517c9f7807u}));
+            (Hashes{0x32460b1b678fb8a6u, 0xcc003bed9c8b68ebu, 0x96aec55b613c817cu,
+                    0x9ce34e02bf18e752u, 0x288f40d16d4417acu, 0xf11dcd621763949du}));
 }
 TEST(ConversationHashes, OfRegions) {
   EXPECT_EQ(sail({{make_region, use_region, use_region, use_region, register_one, update, say},
@@ -52,68 +52,68 @@ TEST(ConversationHashes, OfRegions) {
                   0,
                   false,
                   filtered("region")}),
-            (Hashes{0x7c9e74d7d0141d78u, 0x76a26b10b924bbe4u, 0xf12c3ec99b90d936u,
-                    0x1dc5ba64e3729132u, 0x8d6d7acd06e03173u, 0x9c24e6369d799855u}));
+            (Hashes{0x3f2ee3fa28b6c12du, 0xd166546a3914809eu, 0x959c1c1aad8a31f9u,
+                    0x6b79114215e992eau, 0xf4a0de0e905b131bu, 0x92405489a46aa7e2u}));
   EXPECT_EQ(sail({{make_region, use_region, use_region, register_one, update, declare, trade},
                   prepare,
                   40,
                   0,
                   false,
                   filtered("region")}),
-            (Hashes{0x7a8ec588a32aa166u, 0xd91d190f1aa49de5u, 0x09e2ef35ed58720au,
-                    0x07b8f060ea91668bu, 0x6909f0313aac5092u, 0x92b180ea7855d64bu}));
+            (Hashes{0x66b559d8e0bcc567u, 0x7a2f1179d2b85359u, 0xdb6c574a727f6979u,
+                    0x844bda231d020b39u, 0x1051e6c8d99d1237u, 0x3254b36d64b9afc7u}));
 }
 TEST(ConversationHashes, OfTiersAndBudgets) {
   const std::vector<Service> services{make_region, use_region, use_region,  use_region,
                                       update,      update,     register_one};
   EXPECT_EQ(sail({services, publish_all, 0, 0, false,
                   filtered("region with tiers(at=0.25 at=0.5 at=0.75)")}),
-            (Hashes{0xc2794ba84adee959u, 0x2a227ac5ed7fd206u, 0x13cdc409a3378489u,
-                    0x27927e014eba353fu, 0x5a80d9b0aff751e7u, 0xc419312987f4686au}));
+            (Hashes{0xc3f136210129c686u, 0xb8a983e546c325c7u, 0x59495408e6020b1eu,
+                    0x35b1b0c70374fe3eu, 0xa2831d96c65f9501u, 0xe64a2a42c46f032fu}));
   EXPECT_EQ(
       sail({services, publish_all, 60, 300, true, filtered("region with priority(budget=60)")}),
-      (Hashes{0x788a9d7390352ea6u, 0x65399ed78bdd2745u, 0x7802f6c48e9e1202u, 0x99e0c2e9c1a16eb2u,
-              0x205f988a2f9fac0bu, 0xfa997123d2b2871bu}));
+      (Hashes{0xbf65759b33cd8f39u, 0xbeb187a88619b904u, 0x703a5a8678a4620eu, 0x1ca4906d395d6364u,
+              0x10360f12c942fdb7u, 0xc38b8e8574cedc25u}));
 }
 TEST(ConversationHashes, OfTimeManagement) {
   const std::vector<Service> services{keep_time,   keep_time,    keep_time,  say_in_time,
                                       say_in_time, register_one, delete_one, update};
   EXPECT_EQ(sail({services}),
-            (Hashes{0x408601ccd6d64593u, 0x4157cd22739f0754u, 0xc70f7c3f657e8097u,
-                    0x439ca70c20d17bd7u, 0x48f7a773b20681bau, 0x9ffd4c0dcdf3a365u}));
+            (Hashes{0x54e2c3330402d212u, 0xdeec4fe2a47e6d8au, 0x7168007aebb70ad6u,
+                    0xb2b4c3abd320626au, 0x959dd7a2f584a869u, 0xbd07c51fbdfbc4bfu}));
   EXPECT_EQ(sail({services, prepare, 40}),
-            (Hashes{0xa90ec493749c2412u, 0x754135a67b83e8dcu, 0xf40101b5bf5ab266u,
-                    0x9fa346068a73cfa5u, 0x5f3e396163029841u, 0xb45a5577ae969bd5u}));
+            (Hashes{0x0681e61dde310261u, 0x826b69a6d1fea98eu, 0x363e2240295666f0u,
+                    0x19a651b8d12833f1u, 0x536f563af8b733edu, 0x381e0cf2315bdebdu}));
 }
 TEST(ConversationHashes, OfTimeManagementAmongChangingOwners) {
   EXPECT_EQ(sail({{keep_time, keep_time, say_in_time, register_one, trade, trade, declare, say},
                   prepare,
                   60}),
-            (Hashes{0xd97cae39093dbe56u, 0xc425d51bfa0b6f87u, 0x2f2ee2d4b34666cdu,
-                    0x7620276f609539bfu, 0xd45a09501af1c8acu, 0x744734e5dd3f38d9u}));
+            (Hashes{0x9c7667c104bf226eu, 0x2b8a399ae6cd03ecu, 0x03791f281d9ae52eu,
+                    0x3689de02f9d12d26u, 0x8fbcf5384a8e9ff0u, 0x9c18ee47e72808e5u}));
 }
 TEST(ConversationHashes, OfBestEffort) {
   const std::vector<Service> services{register_one, update,    update,     update,
                                       update,       transport, delete_one, say};
   EXPECT_EQ(sail({services, prepare, 0, 400}),
-            (Hashes{0xadeb51a75f260b76u, 0x628d6f5c95017184u, 0x93e7fcccae4ff741u,
-                    0xba74f45cb1ef98e6u, 0x8cc3a046e82e42c3u, 0x5fc6285a22d07319u}));
+            (Hashes{0x016ae13e5ef0861fu, 0x1073b2a05df952ceu, 0xd497f05e40ffefc3u,
+                    0x796fde992f2804f1u, 0x19a932f8801d3730u, 0xc90aa308e1094e6eu}));
   EXPECT_EQ(sail({services, prepare, 30, 300}),
-            (Hashes{0xcb006b78f7b5c80cu, 0x78b1249dc599806du, 0x303bf3ba53d50f0bu,
-                    0x0f155925d0373692u, 0xa7ec5e58a54149cau, 0x853a2938600c2702u}));
+            (Hashes{0x80a940b667f05e4au, 0xec4b6df4cab7f18bu, 0xf304baaeda33de15u,
+                    0x2093647b6ba35770u, 0x48788ea64c74a41au, 0xdf2f98bf02053741u}));
 }
 TEST(ConversationHashes, OfManagement) {
   EXPECT_EQ(sail({{manage, manage, declare, register_one, update, say, synchronize}}),
-            (Hashes{0xf26a3066b9c0a43fu, 0x05171587409ecd59u, 0x0ef6e0d17073051au,
-                    0x6b41ad4cad8d4a59u, 0xae3c9f75f8d2983cu, 0x174e8b67b3e02761u}));
+            (Hashes{0x7955c13f871ec5c5u, 0xbf16f36dfabc09cfu, 0x8dbcbc2944799437u,
+                    0x5b7217f29c7bd033u, 0x36d76e925d077e93u, 0xbb1739f5d89848f3u}));
   EXPECT_EQ(sail({{manage, manage, manage, register_one, keep_time, trade, watch}, prepare, 25}),
-            (Hashes{0x7f930219231c7a46u, 0x6ef9d38efd9a2471u, 0xaa75edcfcb985857u,
-                    0xb1bf30fc9049ccd7u, 0x4c81e18f186bfe93u, 0x99ea5d329d7b2c17u}));
+            (Hashes{0xc797a9c68fd22f7du, 0x01b09aaa7e78b73fu, 0x2d2fa5c69bab343eu,
+                    0x055937caafbf5379u, 0xd677e80bdee33dedu, 0x6b0536b588c261bcu}));
 }
 TEST(ConversationHashes, OfThoseWhoDoNotRead) {
   EXPECT_EQ(sail({{register_one, update, update, delete_one, ask, say}, prepare, 50, 0, true}),
-            (Hashes{0x13f5bf4a8cd1f751u, 0xb6f7190a9710694eu, 0xaf410b8b3bd115d0u,
-                    0x11459dfafbf17985u, 0xfef0df07f06539b8u, 0xdbc68c23de0a9e54u}));
+            (Hashes{0x872e46956b150e25u, 0x37c5768706126710u, 0x91ab23bde6d75a55u,
+                    0xf6deb31cb9fb3d94u, 0x2501e3a30ede1e97u, 0x5bcdf87e23f4be23u}));
 }
 TEST(ConversationHashes, OfLittleRoom) {
   EXPECT_EQ(sail({{register_one, register_one, update, update, say, delete_one},
@@ -122,16 +122,16 @@ TEST(ConversationHashes, OfLittleRoom) {
                   0,
                   true,
                   cramped()}),
-            (Hashes{0x2572487900ce2acbu, 0x04ad08333d782164u, 0x008c3724c6c36090u,
-                    0xdcf2bf36725c7434u, 0x6f083eb64bc894c3u, 0xe2218a024ee231fcu}));
+            (Hashes{0x25575aa8990af24du, 0x7ed0b2f4cb708a37u, 0x916e6c9cbc2f8d8eu,
+                    0xcc6e791a84408654u, 0xa66a766d1332d5dbu, 0xc48f338e0c5fd9b4u}));
   EXPECT_EQ(sail({{register_one, update, keep_time, keep_time, say_in_time, say_in_time},
                   prepare,
                   80,
                   0,
                   false,
                   cramped()}),
-            (Hashes{0x56b3c4f0c56248d9u, 0x9fb9678140b075c9u, 0x678fbac3d0a80657u,
-                    0x0995be42184defa3u, 0x6966dc071717d0acu, 0x9cd36a793e3697eeu}));
+            (Hashes{0x6c8438cacd50e899u, 0x9c72666d9cedaff1u, 0xa248288c7c04a07eu,
+                    0x68e473d4b9f13cc6u, 0xcb05232e4c71893bu, 0xd07a128d072255e0u}));
 }
 TEST(ConversationHashes, OfEverythingAtOnce) {
   const std::vector<Service> services{declare,     register_one, update,     update,    say,
@@ -140,17 +140,17 @@ TEST(ConversationHashes, OfEverythingAtOnce) {
                                       synchronize, manage,       watch};
   for (const auto& [seed, hashes] : std::vector<std::pair<std::uint64_t, Hashes>>{
            {1,
-            {0x1cd2eaa8c2042d10u, 0xa8d2452618fd03f0u, 0xa5c1fe3c80a6638bu, 0x03b227aaa39fa1d6u,
-             0x6a0e6d009fb3da35u, 0x910c6affd2a48695u}},
+            {0xbefb0e05666c2a4du, 0x58f853ce0cb0529au, 0x49904d9a13381b18u, 0xda777010ad063df0u,
+             0xf2e52e571ecd1a8fu, 0x3cef657a956b34a5u}},
            {2,
-            {0x33495bee62737519u, 0x03a1822be8cd08e5u, 0xba1bb46368de983du, 0x2d27be85e80a94cau,
-             0x09a39c735fe0a7e6u, 0xe38999d25e47476du}},
+            {0xb89e5ba5326dad9au, 0xd77f5795e78166c2u, 0x89944564e83c150bu, 0xf65b39a05c39675bu,
+             0x5b2b08aa4523be08u, 0xabae7166e7dff62du}},
            {3,
-            {0x73160198ecfeda65u, 0x5a842806449aada3u, 0x3a13a69be7cb3805u, 0xc8d1a7fa5caa19beu,
-             0xfe419dc70275e18du, 0x9ac6c16c1559963fu}},
+            {0x8cd58f5ffed5924bu, 0xa23d2c41883e9016u, 0xaaa5280a56dc2515u, 0x82ec9041078267f1u,
+             0x577925a00e2df100u, 0x57bb7343a0c4aa8au}},
            {4,
-            {0xda622d1587cd7041u, 0x15088013216f7bc3u, 0xdb3d976815f2c553u, 0x50170d639ef0b4ebu,
-             0x86ff2511856a6896u, 0x4f029bf63b1e71e7u}}})
+            {0x17bae5b57d692654u, 0xf9842b4662acf2b9u, 0x5ccdaaa932a19b2eu, 0x8b12d301c92883b8u,
+             0x72976cee248f1c1du, 0xd9c76bb4c4477374u}}})
     EXPECT_EQ(sail({services, prepare, 60, 350, true, filtered("region")}, seed), hashes) << seed;
 }
 
@@ -183,8 +183,8 @@ TEST(ConversationHashes, OfStrangers) {
     all.tick();
     all.execution.disconnect(stranger, "gone");
   }
-  EXPECT_EQ(all.hashes(), (Hashes{0xa9b74c401c63ddb2u, 0x5b66414b963b956cu, 0x6c476a250e3a936du,
-                                  0xcecba5e02f2f71efu}));
+  EXPECT_EQ(all.hashes(), (Hashes{0x890d711bbba7f31cu, 0x82b0f7f97dcc63ceu, 0x6bb11cbda2412affu,
+                                  0xfbc5acc89b2a9dbbu}));
 }
 
 }  // namespace

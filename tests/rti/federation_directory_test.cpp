@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "rti/federation_directory.h"
+#include "rti/refusal_words.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
 #include "tests/rti/rig.h"
@@ -175,7 +176,9 @@ TEST(FederationDirectory, WhoBreaksARuleOrIsSilentIsDroppedAndNobodyElse) {
   Drain drain;
   const std::vector<std::vector<std::byte>> crimes{
       bytes({0, 0, 0, 0}),    bytes({255, 255, 0, 0}),    bytes({1, 0, 0, 0, 99}),
-      bytes({1, 0, 0, 0, 1}), bytes({2, 0, 0, 0, 20, 9}), framed(UpdatesMessage{1, 1})};
+      bytes({1, 0, 0, 0, 1}), bytes({2, 0, 0, 0, 20, 9}), framed(UpdatesMessage{1, 1}),
+      bytes({0, 0}),          bytes({255, 127, 1}),       bytes({0, 128, 1, 0}),
+      bytes({1, 0, 99}),      bytes({2, 0, 20, 9}),       bytes({1, 0, 0, 1})};
   directory.connect(0);
   for (ConnectionId id = 1; id <= crimes.size(); ++id) {
     directory.connect(id);
@@ -189,6 +192,30 @@ TEST(FederationDirectory, WhoBreaksARuleOrIsSilentIsDroppedAndNobodyElse) {
   directory.flush(drain);
   EXPECT_THAT(drain.dropped, Contains(0u));
   EXPECT_EQ(directory.drops(), crimes.size() + 1);
+}
+
+TEST(FederationDirectory, AnswersEarlierVersionsInTheFormThatTheyRead) {
+  FederationDirectory directory;
+  directory.offer(harbour());
+  Drain drain;
+  const auto ask = [&](ConnectionId id, const std::vector<std::byte>& frame) {
+    directory.connect(id);
+    directory.receive(id, frame);
+    directory.flush(drain);
+    return drain.sent[id];
+  };
+  const std::vector<std::byte> list = values_of(std::uint32_t{1}, std::uint8_t{22}),
+                               end = values_of(std::uint32_t{2}, std::uint8_t{77}, std::uint8_t{1});
+  EXPECT_EQ(ask(0, list), end) << "which is the list of none, in every version";
+  const std::vector<std::byte> join =
+      values_of(std::uint32_t{7}, std::uint8_t{1}, protocol_magic, std::uint16_t{11});
+  const std::vector<std::byte> refused = ask(1, join);
+  const std::string why = refused_version(11, protocol_version);
+  ASSERT_EQ(refused.size(), 4 + 3 + why.size());
+  EXPECT_TRUE(std::ranges::equal(
+      Bytes(refused).first(6),
+      values_of(static_cast<std::uint32_t>(3 + why.size()), std::uint8_t{65}, std::uint8_t{1})));
+  EXPECT_EQ(text_of(Bytes(refused).subspan(7)), why);
 }
 
 TEST(FederationDirectory, AStrangersQuestionsAreAnsweredOnceAFlushAndItGoesIfItAsksTooMuch) {

@@ -100,6 +100,13 @@ std::vector<std::byte> values_of(const Numbers&... numbers) {
   ((std::memcpy(bytes.data() + at, &numbers, sizeof numbers), at += sizeof numbers), ...);
   return bytes;
 }
+/// `payload` in a frame of its own, also if it is empty, which no writer makes.
+inline std::vector<std::byte> in_frame(Bytes payload) {
+  std::vector<std::byte> bytes(frame_head_size(payload.size()));
+  if (!payload.empty()) write_frame_head(bytes.data(), payload.size());
+  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  return bytes;
+}
 /// A value of varying size as it travels.
 inline std::vector<std::byte> varying(std::string_view text) {
   std::vector<std::byte> bytes = values_of(static_cast<std::uint32_t>(text.size()));

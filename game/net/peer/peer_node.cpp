@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "game/net/peer/network/frames.h"
 #include "game/peer/standby/known_bodies.h"
 #include "game/peer/standby/part_at_start.h"
 
@@ -42,7 +43,7 @@ PeerNode::PeerNode(const SharedGame& game, const InterestSettings& settings,
 
 void PeerNode::count_and_send(peer::PeerNumber to, Traffic about,
                               std::vector<std::uint8_t> content) {
-  sent_[static_cast<std::size_t>(about)] += content.size();
+  sent_[static_cast<std::size_t>(about)] += framed_size(1 + content.size());
   ++messages_sent_[static_cast<std::size_t>(about)];
   send_(to, about, std::move(content));
 }

@@ -45,7 +45,7 @@ class PeerNode {
   const peer::Peer& peer() const { return *peer_; }
   SharedInterest& interest() { return interest_; }
   const SharedInterest& interest() const { return interest_; }
-  /// Bytes sent, without frames, and messages, by purpose.
+  /// Bytes sent, each message with its purpose and frame, and messages, by purpose.
   const TrafficBytes& sent() const { return sent_; }
   const TrafficBytes& messages_sent() const { return messages_sent_; }
 

@@ -10,7 +10,7 @@
 namespace rink::game {
 
 void RunRecorder::CountedMail::send(peer::PeerNumber to, std::vector<std::uint8_t> content) {
-  bytes[static_cast<std::size_t>(about)] += frame_head + content.size();
+  bytes[static_cast<std::size_t>(about)] += framed_size(content.size());
   ++messages[static_cast<std::size_t>(about)];
   network_.send(to, std::move(content));
 }
@@ -96,7 +96,7 @@ PeerLoad RunRecorder::load() const {
   load.instant_s = simulated_s();
   for (std::size_t k = 0; k < traffic_count; ++k) {
     load.messages[k] = mail_.messages[k] + messages_sent()[k];
-    load.bytes[k] = mail_.bytes[k] + sent()[k] + (frame_head + 1) * messages_sent()[k];
+    load.bytes[k] = mail_.bytes[k] + framed_bytes()[k];
   }
   const rti::TransportCounters counters = network_.transported();
   load.bytes_sent = counters.bytes_sent, load.bytes_received = counters.bytes_received,

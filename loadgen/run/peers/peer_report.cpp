@@ -23,8 +23,7 @@ Json or_null(const std::optional<std::uint64_t>& count) {
 
 void TrafficTotals::add(const game::PeerNode& node, const rti::TransportCounters& counters) {
   for (std::size_t k = 0; k < game::traffic_count; ++k)
-    by_subject[k] += node.sent()[k] + peer_message_head * node.messages_sent()[k],
-        messages += node.messages_sent()[k];
+    by_subject[k] += node.sent()[k], messages += node.messages_sent()[k];
   bytes += counters.bytes_sent, writes += counters.writes, segments += counters.segments_sent;
   acknowledgements += counters.acknowledgements_sent,
       kernel_segments += counters.kernel_segments_sent.value_or(counters.segments_sent);

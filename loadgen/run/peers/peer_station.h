@@ -15,9 +15,6 @@
 
 namespace rink::loadgen {
 
-/// Bytes around each message: a frame's head and its purpose.
-inline constexpr std::size_t peer_message_head = game::frame_head + 1;
-
 /// The clock of a run: simulated time is that since its start. All in seconds.
 struct RunClock {
   double now_s = 0.0, start_s = 0.0;

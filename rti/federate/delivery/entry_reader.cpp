@@ -9,8 +9,10 @@ bool EntryReader::handle(Reader& reader, const ReadContext& context, bool is_pos
   EntriesMessage message;
   if (!exchange(reader, message) || message.object_class >= basis_.fom.object_classes().size())
     return false;
-  const AttributeSet attributes{message.attributes}, repeated{message.repeated};
-  if (attributes.is_empty() || !attributes.includes(repeated) ||
+  const AttributeSet attributes{message.attributes}, repeated{message.repeated},
+      recalled{message.recalled};
+  if (attributes.is_empty() || !attributes.includes(repeated | recalled) ||
+      !(repeated & recalled).is_empty() ||
       !basis_.fom.attributes(ObjectClassHandle{message.object_class}).includes(attributes))
     return false;
   if (context.is_released) return read_block(message, reader, context, is_postponing);
@@ -27,7 +29,7 @@ bool EntryReader::read_block(const EntriesMessage& message, Reader& reader,
   if (!context.stamp || context.timed != nullptr) return false;
   const ObjectClass& object_class = basis_.fom.at(ObjectClassHandle{message.object_class});
   const Block block{message, object_class, AttributeSet{message.attributes},
-                    AttributeSet{message.repeated}};
+                    AttributeSet{message.repeated}, AttributeSet{message.recalled}};
   return read_records(block, reader, context, is_postponing) || !basis_.phase.is_joined();
 }
 
@@ -69,6 +71,12 @@ bool EntryReader::read_values(const Block& block, Reader& reader) {
     if (block.repeated.contains(each)) {
       if (!last_.has(object_class, each)) return false;
       value = last_.last(object_class, each);
+    } else if (block.recalled.contains(each)) {
+      std::uint8_t number = 0;
+      const auto former =
+          reader.number(number) ? last_.recall(object_class, each, number) : std::optional<Bytes>();
+      if (!former) return false;
+      value = *former;
     } else {
       const auto size = coded_size(block.object_class, {each}, reader.rest());
       if (!size || !reader.rest(value, *size)) return false;

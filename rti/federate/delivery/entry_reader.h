@@ -32,7 +32,7 @@ class EntryReader {
   struct Block {
     const EntriesMessage& message;
     const ObjectClass& object_class;
-    AttributeSet attributes, repeated;
+    AttributeSet attributes, repeated, recalled;
   };
   bool read_block(const EntriesMessage& message, Reader& reader, const ReadContext& context,
                   bool is_postponing);

@@ -34,11 +34,12 @@ class FrameOutbox {
     phase_.require_sending();
     append(message);
   }
-  /// Appends a message in a frame of its own: a host routes a frame by its first message, and
-  /// before a federate has joined it may only send short frames.
+  /// Appends a message in a frame of its own, of a form that hosts of every version read: a host
+  /// routes a frame by its first message, and before a federate has joined it may only send short
+  /// frames.
   template <class Message>
   void enqueue_alone(Message message) {
-    frames_.close_frame();
+    frames_.open(FrameForm::older);
     append(message);
     frames_.close_frame();
   }

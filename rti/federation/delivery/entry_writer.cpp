@@ -111,23 +111,40 @@ void EntryWriter::write_entry(FlushContext& context, const Due& due, Blocks& blo
   if (!again.includes(set.without(due.attributes)) ||
       basis_.objects.size_of(due.slot, set) > values_max)
     set = due.attributes, again = again & set;
-  blocks.entries.append({object.object_class, set.bits, again.bits}, object.handle.value,
-                        is_discovered ? EntryForm::discovered : EntryForm::known, [&] {
-                          for (const AttributeHandle each : set.without(again)) {
-                            const std::size_t before = bytes.size();
-                            basis_.objects.append(due.slot, {each}, bytes);
-                            last.note(object.object_class, each, Bytes(bytes).subspan(before));
-                          }
-                        });
+  const AttributeSet former = recalled(last, due.slot, set.without(again));
+  blocks.entries.append(
+      {object.object_class, set.bits, again.bits, former.bits}, object.handle.value,
+      is_discovered ? EntryForm::discovered : EntryForm::known, [&] {
+        for (const AttributeHandle each : set.without(again)) {
+          const Bytes value = basis_.objects.value(due.slot, each);
+          if (former.contains(each)) {
+            const std::uint8_t number = *last.former(object.object_class, each, value);
+            last.recall(object.object_class, each, number);
+            bytes.push_back(std::byte{number});
+            continue;
+          }
+          last.note(object.object_class, each, value);
+          bytes.insert(bytes.end(), value.begin(), value.end());
+        }
+      });
 }
 
-AttributeSet EntryWriter::repeated(const EntryValues& last, ObjectSlot object, AttributeSet set) {
+AttributeSet EntryWriter::recalled(const EntryValues& last, ObjectSlot object,
+                                   AttributeSet set) const {
+  const AttributeSet statics = set & basis_.objects.settled_static(object);
+  const std::uint16_t object_class = basis_.objects[object].object_class;
+  AttributeSet former;
+  for (const AttributeHandle each : statics)
+    if (last.former(object_class, each, basis_.objects.value(object, each))) former.insert(each);
+  return former;
+}
+
+AttributeSet EntryWriter::repeated(const EntryValues& last, ObjectSlot object,
+                                   AttributeSet set) const {
+  const std::uint16_t object_class = basis_.objects[object].object_class;
   AttributeSet again;
-  for (const AttributeHandle each : set) {
-    value_.clear();
-    basis_.objects.append(object, {each}, value_);
-    if (last.repeats(basis_.objects[object].object_class, each, value_)) again.insert(each);
-  }
+  for (const AttributeHandle each : set)
+    if (last.repeats(object_class, each, basis_.objects.value(object, each))) again.insert(each);
   return again;
 }
 

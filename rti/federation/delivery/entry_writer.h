@@ -53,11 +53,12 @@ class EntryWriter {
   void write_update(FlushContext& context, const Due& due, Blocks& blocks);
   void write_entry(FlushContext& context, const Due& due, Blocks& blocks);
   /// Those whose values are the ones of the class's last entry.
-  AttributeSet repeated(const EntryValues& last, ObjectSlot object, AttributeSet set);
+  AttributeSet repeated(const EntryValues& last, ObjectSlot object, AttributeSet set) const;
+  /// Static ones whose values an entry of the class brought before.
+  AttributeSet recalled(const EntryValues& last, ObjectSlot object, AttributeSet set) const;
 
   FederationBasis basis_;
   Uses uses_;
-  std::vector<std::byte> value_;  ///< of one attribute
 };
 
 }  // namespace rink::rti

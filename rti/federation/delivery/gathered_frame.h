@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <utility>
@@ -24,15 +23,18 @@ class GatheredFrame {
   /// `steps` are those of the federate that the frame is for.
   void begin(StampSteps& steps) {
     steps_ = &steps;
-    bytes_.resize(frame_header_size);
+    bytes_.resize(frame_head_max);
     taken_ = shared_size_ = 0;
     stamp_.reset();
     is_keyframe_begun_ = false;
     pieces_.clear();
   }
-  /// The size with its header.
+  /// The size with room for the longest head.
   std::size_t size() const { return bytes_.size() + shared_size_; }
-  bool is_empty() const { return size() == frame_header_size; }
+  bool is_empty() const { return size() == frame_head_max; }
+  std::size_t payload_size() const { return size() - frame_head_max; }
+  /// With the head that it is sent with.
+  std::size_t sent_size() const { return frame_head_size(payload_size()) + payload_size(); }
   /// The bytes, for writers that append.
   std::vector<std::byte>& bytes() { return bytes_; }
   void append(Bytes bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
@@ -70,12 +72,14 @@ class GatheredFrame {
     pieces_.push_back({bytes, 0, 0});
     shared_size_ += bytes.size();
   }
-  /// Writes the length into the header. The parts are valid until the frame is changed.
+  /// Writes the head, which only now has a size: it stands right before the payload. The parts are
+  /// valid until the frame is changed.
   std::span<const Bytes> finish() {
-    assert(size() - frame_header_size <= frame_max_to_federate);
-    const auto length = static_cast<std::uint32_t>(size() - frame_header_size);
-    std::memcpy(bytes_.data(), &length, sizeof length);
+    assert(payload_size() <= frame_max_to_federate);
+    const std::size_t head = frame_head_max - frame_head_size(payload_size());
+    write_frame_head(bytes_.data() + head, payload_size());
     take_own();
+    pieces_.front().from = head;
     gathered_.clear();
     for (const Piece& piece : pieces_)
       gathered_.push_back(piece.shared.empty()

@@ -344,8 +344,8 @@ void Sender::write_due_states(FlushContext& context) {
 
 void Sender::send_frame(FlushContext& context, Outlet& outlet) {
   JoinedFederate& federate = context.federate;
-  const std::size_t size = context.frame.size();
-  if (size - frame_header_size > frame_max_to_federate)
+  const std::size_t size = context.frame.sent_size();
+  if (context.frame.payload_size() > frame_max_to_federate)
     return expel_(context.slot, Violation::over_limit, ResignReason::lost,
                   "more to send in one tick than a frame holds");
   federate.last_sent = basis_.now;

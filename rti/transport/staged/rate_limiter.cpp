@@ -12,12 +12,12 @@ namespace rink::rti {
 /// One connection's buckets, and where in its frames it is.
 struct RateLimiter::Meter {
   TokenBucket bytes, frames;
-  std::byte header[frame_header_size] = {};
-  std::size_t header_size = 0;  ///< bytes of it received
-  std::size_t body_left = 0;    ///< of the present frame
+  std::byte front[frame_head_max] = {};  ///< of the present frame, until its head is known
+  std::size_t front_size = 0;
+  std::size_t body_left = 0;  ///< of the present frame
   bool is_closing = false;
 
-  /// Counts the frames whose header ends in `stream`.
+  /// Counts the frames whose head gets known by `stream`.
   int count_frames(Bytes stream) {
     int count = 0;
     while (!stream.empty()) {
@@ -27,11 +27,12 @@ struct RateLimiter::Meter {
         stream = stream.subspan(skipped);
         continue;
       }
-      header[header_size++] = stream.front();
+      front[front_size++] = stream.front();
       stream = stream.subspan(1);
-      if (header_size < frame_header_size) continue;
-      body_left = frame_length(header);
-      header_size = 0;
+      const std::optional<FrameHead> head = read_frame_head(Bytes(front).first(front_size));
+      if (!head) continue;
+      body_left = head->size + head->length - std::min(front_size, head->size + head->length);
+      front_size = 0;
       ++count;
     }
     return count;

@@ -203,11 +203,11 @@ TEST_F(VirtualRunTest, WhatNeedsAClockOrAKernelIsAbsentAndNoFault) {
   const nlohmann::json server = report(first_cell(), "server");
   EXPECT_GT(server["physics_events"], 0);
   EXPECT_EQ(server["total_bytes_received"],
-            report(first_cell(), "bots")["total_bytes_sent"].get<std::uint64_t>() + 6 * 5)
+            report(first_cell(), "bots")["total_bytes_sent"].get<std::uint64_t>() + 6 * 3)
       << "the bots take their leave after their report";
 }
 
-/// In frames of their own a key is 15 bytes and a heartbeat 5 (docs/wire.md).
+/// In frames of their own a key is 13 bytes and a heartbeat 3 (docs/wire.md).
 TEST_F(VirtualRunTest, UnderNoneClientsSendKeysAndHeartbeatsAlone) {
   settings_.wants_truth = true;
   experiment_.view_margins = {0.0};
@@ -215,10 +215,10 @@ TEST_F(VirtualRunTest, UnderNoneClientsSendKeysAndHeartbeatsAlone) {
   const RunRecord record = run(none);
   run(region);
   const nlohmann::json bots = report(none, "bots"), others = report(region, "bots");
-  const double keys_bytes = 15.0 * bots["keys_sent"].get<double>(),
+  const double keys_bytes = 13.0 * bots["keys_sent"].get<double>(),
                heartbeats_max = 6.0 * experiment_.duration_s;
   EXPECT_GE(bots["bytes_sent"].get<double>(), keys_bytes);
-  EXPECT_LE(bots["bytes_sent"].get<double>(), keys_bytes + 5.0 * heartbeats_max);
+  EXPECT_LE(bots["bytes_sent"].get<double>(), keys_bytes + 3.0 * heartbeats_max);
   EXPECT_GT(others["bytes_sent"].get<double>(), 10.0 * bots["bytes_sent"].get<double>())
       << "regions that follow the bats";
   EXPECT_EQ(record.truth.filter_recall, 1.0) << "and yet all is let through to them";

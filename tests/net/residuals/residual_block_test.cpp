@@ -34,29 +34,31 @@ struct Forged {
     ambassador.join("rink", "watcher", "");
     EXPECT_TRUE(ambassador.receive(framed(rti::JoinedMessage{4, 1})));
   }
+  static Values in_frame(const Values& payload) {
+    Values frame(rti::frame_head_size(payload.size()));
+    rti::write_frame_head(frame.data(), payload.size());
+    frame.insert(frame.end(), payload.begin(), payload.end());
+    return frame;
+  }
   template <class Message>
   static Values framed(Message message) {
-    Values frame(rti::frame_header_size);
-    rti::write(frame, message);
-    const auto length = static_cast<std::uint32_t>(frame.size() - rti::frame_header_size);
-    std::memcpy(frame.data(), &length, sizeof length);
-    return frame;
+    Values payload;
+    rti::write(payload, message);
+    return in_frame(payload);
   }
   bool takes(std::uint32_t handle, bool is_known, const Values& bits,
              std::optional<std::uint32_t> size = std::nullopt) {
-    Values frame(rti::frame_header_size);
+    Values payload;
     const auto object_class = static_cast<std::uint16_t>(rink_model().entity.value);
     rti::DiscoverObjectMessage discovery{handle, object_class, ""};
     rti::StampMessage stamp{{10.0, 1}};
     rti::ResidualsMessage residuals{object_class,
                                     size.value_or(static_cast<std::uint32_t>(bits.size()))};
-    if (is_known) rti::write(frame, discovery);
-    rti::write(frame, stamp);
-    rti::write(frame, residuals);
-    frame.insert(frame.end(), bits.begin(), bits.end());
-    const auto length = static_cast<std::uint32_t>(frame.size() - rti::frame_header_size);
-    std::memcpy(frame.data(), &length, sizeof length);
-    return ambassador.receive(frame);
+    if (is_known) rti::write(payload, discovery);
+    rti::write(payload, stamp);
+    rti::write(payload, residuals);
+    payload.insert(payload.end(), bits.begin(), bits.end());
+    return ambassador.receive(in_frame(payload));
   }
 };
 

@@ -66,10 +66,10 @@ TEST(BadPeer, IsRefusedForAnotherVersionWhateverFollowsIt) {
   bare.execution.connect(1);
   JoinMessage message = join_of("old");
   message.version = protocol_version + 1;
-  auto frame = frame_of(message);
-  frame.push_back(std::byte{77});  // what that version has more
-  frame[0] = static_cast<std::byte>(frame.size() - frame_header_size);
-  bare.execution.receive(1, frame);
+  std::vector<std::byte> payload;
+  write(payload, message);
+  payload.push_back(std::byte{77});  // what that version has more
+  bare.execution.receive(1, in_frame(payload));
   bare.tick();
   Recorder heard;
   Ambassador old(harbour(), heard);
@@ -142,8 +142,8 @@ std::vector<Crime> crimes() {
                     infinite = values_of(std::uint32_t{0}, 0.0, 0.0, HUGE_VAL, 1.0);
   const PublishObjectClassMessage publish{vessel_number, both.bits};
   const RegisterObjectMessage here{own, vessel_number, ""};
-  std::vector<std::byte> too_long(frame_header_size);
-  too_long[2] = std::byte{2};
+  std::vector<std::byte> too_long(frame_head_max);
+  write_frame_head(too_long.data(), frame_max_to_rti + 1);
   return {
       {"SecondJoin", Violation::wrong_phase, frame_of(join_of("again"))},
       {"UnknownKind",
@@ -335,11 +335,10 @@ TEST(Fuzz, RandomBytesHarmNobodyBeforeAndAfterJoining) {
   std::mt19937 random(seed);
   Bare bare;
   for (int i = 0; i < 3000; ++i) {
-    std::vector<std::byte> noise(frame_header_size + 1 + random() % 200);
+    std::vector<std::byte> noise(1 + random() % 200);
     for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
-    const auto length = static_cast<std::uint32_t>(noise.size() - frame_header_size);
-    if (i % 2 == 0) std::memcpy(noise.data(), &length, sizeof length);  // a frame of noise
-    noise[frame_header_size] = static_cast<std::byte>(random() % 20);   // of a kind that exists
+    noise[0] = static_cast<std::byte>(random() % 20);  // of a kind that exists
+    if (i % 2 == 0) noise = in_frame(noise);
     bare.execution.connect(1);
     if (i % 3 != 0) bare.execution.receive(1, frame_of(join_of("noisy")));
     bare.execution.receive(1, noise);

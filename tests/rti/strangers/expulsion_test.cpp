@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::vector<std::byte> empty_frame(frame_header_size);
+const std::vector<std::byte> empty_frame = in_frame({});
 
 /// A federate on connection 1 of a bare execution, which speaks through its ambassador and, at
 /// times, past it.
@@ -80,10 +80,13 @@ struct Offence {
 };
 
 std::vector<Offence> offences() {
-  std::vector<std::byte> oversized(frame_header_size, std::byte{255});
+  std::vector<std::byte> oversized(frame_head_max, std::byte{255});
   return {{"EmptyFrame", empty_frame, "without a message"},
           {"OversizedFrame", oversized, "longer than allowed"},
-          {"UnknownKind", {std::byte{1}, {}, {}, {}, std::byte{250}}, "no message"},
+          {"EmptyFrameOfTheOlderForm", std::vector<std::byte>(4), "without a message"},
+          {"FrameOfTheOlderForm", framed(HeartbeatMessage{}), "no message"},
+          {"KindOfZero", in_frame(values_of(std::uint16_t{0x100})), "no message"},
+          {"UnknownKind", in_frame(std::vector<std::byte>{std::byte{250}}), "no message"},
           {"SecondJoin", frame_of(join_of("again")), "a second time"},
           {"UnknownClass", frame_of(PublishObjectClassMessage{99, 1}), "does not exist"},
           {"UnpublishedClass", frame_of(RegisterObjectMessage{object_block, vessel_number, ""}),

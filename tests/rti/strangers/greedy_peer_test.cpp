@@ -76,11 +76,11 @@ TEST(GreedyPeer, HoweverOftenUpdatesAreRequestedTheirOwnerIsToldOncePerFlush) {
   for (int i = 0; i < 100; ++i) bare.execution.receive(1, frame_of(request));
   bare.tick();
   EXPECT_EQ(bare.witness_bytes - before,
-            frame_header_size + fleet * size_of(ProvideUpdateMessage{}));
+            in_frame(std::vector<std::byte>(fleet * size_of(ProvideUpdateMessage{}))).size());
   bare.execution.receive(1, frame_of(request, CreateRegionMessage{1}, DeleteRegionMessage{0}));
   bare.tick();
   EXPECT_EQ(bare.witness_bytes - before,
-            2 * (frame_header_size + fleet * size_of(ProvideUpdateMessage{})))
+            2 * in_frame(std::vector<std::byte>(fleet * size_of(ProvideUpdateMessage{}))).size())
       << "also of a region that is deleted at once";
   EXPECT_TRUE(bare.dropped.empty());
 }
@@ -144,7 +144,7 @@ TEST(GreedyPeer, AHoardOfObjectsLeavesTheOthersTheirShare) {
   bare.tick();
   EXPECT_EQ(bare.execution.object_count(), 140u);
   EXPECT_EQ(bare.sent[1].size(),
-            frame_header_size + 10 * size_of(RemoveObjectMessage{villains_first}))
+            frame_head_size(0) + 10 * size_of(RemoveObjectMessage{villains_first}))
       << "it is told so";
   EXPECT_TRUE(bare.dropped.empty());
 }

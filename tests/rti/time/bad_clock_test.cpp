@@ -204,11 +204,11 @@ TEST(TimeCosts, AFederationWithoutTimeManagementHasNone) {
 }
 
 /// A stamp costs what it did; a request and its grant are this long.
-TEST(TimeCosts, AStepOfAFederateCostsTwentySevenBytes) {
+TEST(TimeCosts, AStepOfAFederateCostsTwentyThreeBytes) {
   AdvanceRequestMessage request;
   TimeAdvanceGrantMessage grant;
-  EXPECT_EQ(frame_header_size + measure(request), 14u);
-  EXPECT_EQ(frame_header_size + measure(grant), 13u);
+  EXPECT_EQ(frame_head_size(0) + measure(request), 12u);
+  EXPECT_EQ(frame_head_size(0) + measure(grant), 11u);
 }
 
 }  // namespace

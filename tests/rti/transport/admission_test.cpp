@@ -71,7 +71,7 @@ TEST(Admission, AnotherKeyFederationOrVersionIsRefusedWithAWord) {
   Handshake rti(ours(), Role::rti, "rink", nonce_of(1)),
       federate(ours(), Role::federate, "rink", nonce_of(2));
   std::vector<std::byte> hello(federate.outgoing().begin(), federate.outgoing().end());
-  hello[frame_header_size + 1] ^= std::byte{1};
+  hello[frame_head_max + 1] ^= std::byte{1};
   Bytes bytes = hello;
   EXPECT_EQ(rti.receive(bytes), State::failed);
   const std::string both = "other version: " + std::to_string(protocol_version ^ 1) +
@@ -80,6 +80,30 @@ TEST(Admission, AnotherKeyFederationOrVersionIsRefusedWithAWord) {
   Bytes answer = rti.outgoing();
   EXPECT_EQ(federate.receive(answer), State::failed);
   EXPECT_EQ(federate.why(), "the RTI refuses us: " + both);
+}
+
+TEST(Admission, VersionElevenIsRefusedInTheFormThatItReadsAndUnderstoodWhenItRefuses) {
+  std::vector<std::byte> hello = values_of(std::uint32_t{0x28}, std::uint8_t{58}, std::uint16_t{11},
+                                           nonce_of(3), std::uint8_t{4});
+  const std::vector<std::byte> rink = bytes_of("rink");
+  hello.insert(hello.end(), rink.begin(), rink.end());
+  Handshake rti(ours(), Role::rti, "rink", nonce_of(1));
+  Bytes bytes = hello;
+  EXPECT_EQ(rti.receive(bytes), State::failed);
+  const std::string why = "other version: 11, the RTI speaks 12";
+  std::vector<std::byte> refused =
+      values_of(std::uint32_t{0x27}, std::uint8_t{65}, std::uint8_t{7}, std::uint8_t{0x24});
+  const std::vector<std::byte> text = bytes_of(why);
+  refused.insert(refused.end(), text.begin(), text.end());
+  EXPECT_TRUE(std::ranges::equal(rti.outgoing(), refused));
+
+  Handshake federate(ours(), Role::federate, "rink", nonce_of(2));
+  const std::vector<std::byte> head =
+      values_of(std::uint32_t{0x28}, std::uint8_t{58}, std::uint16_t{12});
+  EXPECT_TRUE(std::ranges::equal(federate.outgoing().first(head.size()), head));
+  bytes = refused;
+  EXPECT_EQ(federate.receive(bytes), State::failed);
+  EXPECT_EQ(federate.why(), "the RTI refuses us: " + why);
 }
 
 TEST(Admission, TheFederateTurnsAwayFromAnRtiWithoutTheKey) {
@@ -92,7 +116,7 @@ TEST(Admission, TheFederateTurnsAwayFromAnRtiWithoutTheKey) {
   Bytes bytes = challenge;
   ASSERT_EQ(federate.receive(bytes), State::going_on);
   std::vector<std::byte> echoed(federate.outgoing().begin(), federate.outgoing().end());
-  echoed[frame_header_size] = static_cast<std::byte>(MessageKind::admitted);
+  echoed[frame_head_max] = static_cast<std::byte>(MessageKind::admitted);
   bytes = echoed;
   EXPECT_EQ(federate.receive(bytes), State::failed);
   EXPECT_EQ(federate.why(), "the RTI does not have this end's key");
@@ -325,9 +349,9 @@ TEST_P(Admissions, WhoHearsAnAlteredByteAfterwardsLeavesAndSaysWhy) {
   sound.ambassador.join("rink", "ferry", "tester");
   sound.run();
   const std::size_t size = sound.meddler->come;
-  const std::size_t admission = 2 * (frame_header_size + 33);
-  ASSERT_GT(size, admission + frame_header_size);
-  for (std::size_t at = admission + frame_header_size; at < size; at += 7) {
+  const std::size_t admission = 2 * (frame_head_max + 33);
+  ASSERT_GT(size, admission + frame_head_size(1));
+  for (std::size_t at = admission + frame_head_size(1); at < size; at += 7) {
     Gate scene(GetParam(), &ours(), &ours());
     scene.meddler->alters = at;
     scene.ambassador.join("rink", "ferry", "tester");

@@ -68,6 +68,17 @@ std::vector<std::byte> frames(int count, std::uint32_t size) {
   return bytes;
 }
 
+/// The same in both forms by turns.
+std::vector<std::byte> frames_of_both_forms(int count, std::uint32_t size) {
+  std::vector<std::byte> bytes;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<std::byte> frame =
+        i % 2 == 0 ? in_frame(std::vector<std::byte>(size, std::byte{7})) : frames(1, size);
+    bytes.insert(bytes.end(), frame.begin(), frame.end());
+  }
+  return bytes;
+}
+
 TEST(RateLimit, WhoSendsMoreBytesThanAllowedIsClosedAndNamed) {
   LimitedLine line({.bytes_per_s = 1000.0});
   for (int second = 0; second < 20; ++second, line.now += 1.0) {
@@ -100,10 +111,11 @@ TEST(RateLimit, FramesCountHoweverTheyAreCut) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     LimitedLine line({.frames_per_s = 50.0});
-    const std::vector<std::byte> allowed =
-        frames(50, static_cast<std::uint32_t>(1 + random() % 30));
+    const std::vector<std::byte> allowed = frames_of_both_forms(
+        50, static_cast<std::uint32_t>(seed % 50 == 0 ? 40'000 : 1 + random() % 30));
     for (Bytes left = allowed; !left.empty();) {
-      const std::size_t size = std::min<std::size_t>(left.size(), 1 + random() % 40);
+      const std::size_t size =
+          std::min<std::size_t>(left.size(), 1 + random() % (seed % 50 == 0 ? 9'999 : 40));
       line.say(left.first(size));
       left = left.subspan(size);
       line.hear();

@@ -14,6 +14,9 @@
 namespace rink::rti::testing {
 namespace {
 
+/// Of a short record: the frame's head and the mark.
+const std::size_t record_head_size = frame_head_size(1) + 1;
+
 SessionKey key_of(unsigned seed) { return nonce_of(seed); }
 
 std::vector<std::byte> random_bytes(std::mt19937& random, std::size_t size) {
@@ -70,9 +73,9 @@ TEST(Seals, HideWhatIsSaidAndThatItIsSaidTwice) {
   const std::vector<std::byte> once = sealed_of(seal, words), again = sealed_of(seal, words);
   EXPECT_EQ(std::search(once.begin(), once.end(), words.begin() + 2, words.begin() + 7),
             once.end());
-  EXPECT_EQ(once.size(), frame_header_size + words.size() + seal_tag_size);
+  EXPECT_EQ(once.size(), record_head_size + words.size() + seal_tag_size);
   EXPECT_FALSE(
-      std::equal(once.begin() + frame_header_size, once.end(), again.begin() + frame_header_size))
+      std::equal(once.begin() + record_head_size, once.end(), again.begin() + record_head_size))
       << "each record has a number of its own";
 }
 
@@ -92,7 +95,7 @@ TEST(Seals, AreBrokenByWhateverIsAlteredMissingRepeatedSwappedOrOfAnother) {
     return size / words.size();
   };
   EXPECT_EQ(believed(records), 4u);
-  for (std::size_t bit = 8 * frame_header_size; bit < 8 * records[1].size(); ++bit) {
+  for (std::size_t bit = 8 * frame_head_size(1); bit < 8 * records[1].size(); ++bit) {
     auto altered = records;
     altered[1][bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     ASSERT_EQ(believed(altered), 1u) << bit;
@@ -152,7 +155,7 @@ TEST(Seals, OfDatagramsAreNotOpenedIfAlteredCutOrOfTheStream) {
     ASSERT_FALSE(reader.open_datagram(Bytes(sealed).first(size), opened)) << size;
   const std::vector<std::byte> record = sealed_of(seal, words);
   std::vector<std::byte> moved(sizeof(std::uint64_t), std::byte{0});
-  moved.insert(moved.end(), record.begin() + frame_header_size, record.end());
+  moved.insert(moved.end(), record.begin() + record_head_size, record.end());
   EXPECT_FALSE(reader.open_datagram(moved, opened)) << "the stream's numbers are its own";
   EXPECT_TRUE(reader.open_datagram(sealed, opened)) << "all that was refused left no trace";
 }

@@ -199,12 +199,10 @@ TEST(Baselines, AnUnknownBaselineIsRefusedAndAbsoluteStatesFollowOverTheSameConn
   for (int i = 0; i < 4; ++i)
     fleet.sail(), fleet.traffic.tick({}, [&](Shore& each) { return &each == &shore; });
   const auto lost_keyframe = static_cast<std::uint16_t>(fleet.counters().keyframes);
-  std::vector<std::byte> forged(frame_header_size);
+  std::vector<std::byte> forged;
   AcknowledgeKeyframeMessage message{lost_keyframe};
   write(forged, message);
-  const auto length = static_cast<std::uint32_t>(forged.size() - frame_header_size);
-  std::memcpy(forged.data(), &length, sizeof length);
-  fleet.traffic.execution.receive(shore.connection, forged);
+  fleet.traffic.execution.receive(shore.connection, in_frame(forged));
   fleet.sail();
   fleet.traffic.tick();
   EXPECT_EQ(expect_truth(shore, fleet),
@@ -230,13 +228,11 @@ TEST(Baselines, AcknowledgementsOfWhatWasNeverSentAreIgnored) {
   for (int i = 0; i < 5; ++i) fleet.sail(), fleet.traffic.tick();
   const std::uint64_t ignored = fleet.counters().acknowledgements_ignored;
   for (const unsigned number : {0u, 77u, 65535u, 32768u}) {
-    std::vector<std::byte> frame = {std::byte{3},
-                                    {},
-                                    {},
-                                    {},
-                                    std::byte{50},
-                                    static_cast<std::byte>(number),
-                                    static_cast<std::byte>(number >> 8)};
+    const std::vector<std::byte> frame = {std::byte{3},
+                                          {},
+                                          std::byte{50},
+                                          static_cast<std::byte>(number),
+                                          static_cast<std::byte>(number >> 8)};
     fleet.traffic.execution.receive(shore.connection, frame);
   }
   EXPECT_EQ(fleet.counters().acknowledgements_ignored, ignored + 4);
@@ -276,21 +272,18 @@ TEST(Baselines, FederatesSurviveHostileBlocks) {
     std::mt19937_64 random(seed);
     std::vector<std::byte> altered = frame;
     for (unsigned i = 0; i < 1 + seed % 4; ++i) {
-      const std::size_t at = frame_header_size + random() % (frame.size() - frame_header_size);
+      const std::size_t head = frame_head_size(0), at = head + random() % (frame.size() - head);
       altered[at] ^= static_cast<std::byte>(1u << random() % 8);
     }
     Ambassador stranger(fjord(), shore.heard);
     stranger.join("rink", "stranger", "tester");
-    std::vector<std::byte> joined = {std::byte{9}, {}, {}, {}, std::byte{64},
-                                     std::byte{9}, {}, {}, {}, std::byte{9},
-                                     {},           {}, {}};
-    ASSERT_TRUE(stranger.receive(joined));
+    const std::vector<std::byte> joined = values_of(std::uint8_t{64}, 9u, 9u);
+    ASSERT_TRUE(stranger.receive(in_frame(joined)));
     for (const Boat& each : fleet.boats) {
-      std::vector<std::byte> discovery(frame_header_size);
+      std::vector<std::byte> discovery;
       DiscoverObjectMessage message{each.object.value, static_cast<std::uint16_t>(boat.value), ""};
       write(discovery, message);
-      discovery[0] = static_cast<std::byte>(discovery.size() - frame_header_size);
-      ASSERT_TRUE(stranger.receive(discovery));
+      ASSERT_TRUE(stranger.receive(in_frame(discovery)));
     }
     stranger.receive(altered);  // understood or not, it ends
   }

@@ -58,8 +58,9 @@ std::vector<std::byte> entries(Write write) {
   return {frame.bytes().begin(), frame.bytes().end()};
 }
 
-EntriesMessage header(AttributeSet attributes, AttributeSet repeated = {}) {
-  return {static_cast<std::uint16_t>(vessel.value), attributes.bits, repeated.bits};
+EntriesMessage header(AttributeSet attributes, AttributeSet repeated = {},
+                      AttributeSet recalled = {}) {
+  return {static_cast<std::uint16_t>(vessel.value), attributes.bits, repeated.bits, recalled.bits};
 }
 
 TEST(Entries, AreDiscoveredComeIntoScopeAndAreReflectedInThisOrder) {
@@ -95,6 +96,38 @@ TEST(Entries, RepeatTheValueThatAnEntryOfTheClassBroughtLast) {
               ElementsAre("discover 1", "in scope 1", "reflect 1 1 9", "discover 2", "in scope 2",
                           "reflect 2 3 9", "discover 3", "in scope 3", "reflect 3 5 9",
                           "discover 4", "in scope 4", "reflect 4 5 9"));
+}
+
+/// A record whose speed is the value of that number.
+std::vector<std::byte> recalling(float place, std::uint8_t number) {
+  return values_of(place, 0.0f, number);
+}
+
+TEST(Entries, RecallOneOfTheLastFourValues) {
+  Listener listener;
+  const auto bytes = entries([](std::vector<std::byte>& payload) {
+    EntryHeader last;
+    EntriesBlock block(payload, last);
+    for (std::uint32_t k = 1; k <= 5; ++k)
+      block.append(header(both), first + k, EntryForm::discovered,
+                   [&] { append(payload, values_of(0.0f, 0.0f, static_cast<float>(k))); });
+    // The order is 5 4 3 2, then 2 5 4 3, then 5 2 4 3, which the last one repeats.
+    block.append(header(both, {}, {speed}), first + 6, EntryForm::discovered,
+                 [&] { append(payload, recalling(6.0f, 3)); });
+    block.append(header(both, {}, {speed}), first + 7, EntryForm::discovered,
+                 [&] { append(payload, recalling(7.0f, 1)); });
+    block.append(header(both, {}, {speed}), first + 8, EntryForm::discovered,
+                 [&] { append(payload, recalling(8.0f, 3)); });
+    block.append(header(both, {speed}), first + 9, EntryForm::discovered,
+                 [&] { append(payload, values_of(9.0f, 0.0f)); });
+  });
+  ASSERT_TRUE(listener.ambassador.receive(bytes));
+  std::vector<std::string> reflected;
+  for (const std::string& each : listener.heard)
+    if (each.starts_with("reflect")) reflected.push_back(each);
+  EXPECT_THAT(reflected, ElementsAre("reflect 1 0 1", "reflect 2 0 2", "reflect 3 0 3",
+                                     "reflect 4 0 4", "reflect 5 0 5", "reflect 6 6 2",
+                                     "reflect 7 7 5", "reflect 8 8 3", "reflect 9 9 3"));
 }
 
 TEST(Entries, WithTheHeaderOfTheBlockBeforeComeInALaterFrame) {
@@ -143,6 +176,23 @@ TEST(Entries, ThatCannotBeEndTheConnection) {
     write_entry(payload, first, {first + 1, EntryForm::discovered, false});
     append(payload, value);
   });
+  const auto recall = [](const EntriesMessage& of, std::uint8_t number) {
+    return entries([&](std::vector<std::byte>& payload) {
+      EntryHeader last;
+      EntriesBlock block(payload, last);
+      for (std::uint32_t k = 1; k <= 2; ++k)
+        block.append(header(both), first + k, EntryForm::discovered,
+                     [&] { append(payload, values_of(0.0f, 0.0f, static_cast<float>(k))); });
+      block.append(of, first + 3, EntryForm::discovered,
+                   [&] { append(payload, recalling(0.0f, number)); });
+    });
+  };
+  const auto nothing = entries([&](std::vector<std::byte>& payload) {
+    append(payload, values_of(MessageKind::entries, static_cast<std::uint8_t>(2 * vessel.value + 1),
+                              static_cast<std::uint8_t>(both.bits), std::uint16_t{0}));
+    write_entry(payload, first, {first + 1, EntryForm::discovered});
+    append(payload, value);
+  });
   const std::pair<const char*, std::vector<std::byte>> all[] = {
       {"of no class", one(no_class, EntryForm::discovered, true)},
       {"without attributes", one(header({}), EntryForm::discovered, true)},
@@ -150,6 +200,11 @@ TEST(Entries, ThatCannotBeEndTheConnection) {
        one(header(AttributeSet(AttributeBits{1} << 20)), EntryForm::discovered, true)},
       {"that repeat other attributes", one(header({speed}, both), EntryForm::discovered, true)},
       {"that repeat what none brought", one(header(both, both), EntryForm::discovered, false)},
+      {"that recall other attributes", recall(header({position}, {}, {speed}), 1)},
+      {"that recall what they repeat", recall(header(both, {speed}, {speed}), 1)},
+      {"that recall what they should repeat", recall(header(both, {}, {speed}), 0)},
+      {"that recall what is no longer kept", recall(header(both, {}, {speed}), 2)},
+      {"that recall nothing", nothing},
       {"of an object that nobody discovered", one(header(both), EntryForm::known, true)},
       {"held by nobody", one(header(both), EntryForm::held, false)},
       {"cut short", one(header(both), EntryForm::discovered, false)},
@@ -203,6 +258,44 @@ struct Pair final : Outlet {
     }
   }
 };
+
+/// The value of each object's one attribute.
+struct Titles final : FederateAmbassador {
+  std::map<std::uint32_t, std::string> of;
+  void reflect_attribute_values(ObjectHandle object, AttributeSet, Bytes values,
+                                const Stamp&) override {
+    of[object.value] = text_of(values.subspan(4));
+  }
+};
+
+TEST(Entries, BringAStaticValueOnceThoughObjectsHaveItByTurns) {
+  const Fom fom = Fom::parse(
+      R"(<objectModel><modelIdentification><name>Library</name></modelIdentification><objects>
+<objectClass><name>HLAobjectRoot</name><objectClass><name>Book</name>
+<attribute><name>title</name><dataType>HLAASCIIstring</dataType><updateType>Static</updateType></attribute>
+</objectClass></objectClass></objects></objectModel>)",
+      "library.xml");
+  const ObjectClassHandle book = *fom.object_class("Book");
+  FederateAmbassador author;
+  Titles reader;
+  Pair pair(fom, author, reader);
+  pair.first.publish_object_class_attributes(book, fom.attributes(book));
+  pair.second.subscribe_object_class_attributes(book, fom.attributes(book));
+  pair.tick();
+  const std::array<std::string, 3> titles{std::string(100, 'a'), std::string(100, 'b'),
+                                          std::string(100, 'c')};
+  std::map<std::uint32_t, std::string> truth;
+  for (std::size_t k = 0; k < 60; ++k) {
+    const ObjectHandle object = pair.first.register_object_instance(book);
+    truth[object.value] = titles[k * k % 7 % 3];
+    pair.first.update_attribute_values(object, fom.attributes(book), varying(truth[object.value]),
+                                       {1.0, 0});
+    if (k % 2 == 0) pair.tick();
+  }
+  pair.tick();
+  EXPECT_EQ(reader.of, truth);
+  EXPECT_LT(pair.execution.counters().entry_bytes_sent, 3u * 104u + 60u * 12u);
+}
 
 /// The size of each value of the one object that it knows.
 struct Sizes final : FederateAmbassador {

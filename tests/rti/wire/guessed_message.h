@@ -152,7 +152,7 @@ class Guess {
 /// what does not belong to it.
 template <class Message>
 std::vector<std::byte> guessed_frame(std::mt19937& random) {
-  std::vector<std::byte> bytes(frame_header_size);
+  std::vector<std::byte> bytes;
   bytes.push_back(static_cast<std::byte>(Message::kind));
   Message message;
   Guess guess(random, bytes);
@@ -162,9 +162,7 @@ std::vector<std::byte> guessed_frame(std::mt19937& random) {
       bytes.push_back(static_cast<std::byte>(random() % 3 == 0 ? random() : random() % 6));
     bytes.push_back(std::byte{0});
   }
-  const auto length = static_cast<std::uint32_t>(bytes.size() - frame_header_size);
-  std::memcpy(bytes.data(), &length, sizeof length);
-  return bytes;
+  return in_frame(bytes);
 }
 
 /// One for each kind: its number, and what makes a frame of it.

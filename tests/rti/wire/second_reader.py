@@ -290,9 +290,12 @@ class Reader:
         """Objects that come into scope with their values."""
         assert self.stamp is not None, "a block of entries before the first stamp of its frame"
         if not is_again:
-            self.connection.entry_header = self.varint(), self.attribute_bits(), self.attribute_bits()
-        number, bits, repeated = self.connection.entry_header
-        assert bits != 0 and repeated & ~bits == 0
+            head = self.varint()
+            self.connection.entry_header = head >> 1, self.attribute_bits(), self.attribute_bits(), self.attribute_bits() if head & 1 else None
+            assert self.connection.entry_header[3] != 0, "none that is recalled"
+        number, bits, repeated, recalled = self.connection.entry_header
+        recalled = recalled or 0
+        assert bits != 0 and (repeated | recalled) & ~bits == 0 and repeated & recalled == 0
         last = self.connection.entry_values.setdefault(number, {})
         lines, handle, is_last = [], 1 << 18, False
         while not is_last:
@@ -305,15 +308,27 @@ class Reader:
                 if not bits >> k & 1:
                     continue
                 if form != 2:
-                    if not repeated >> k & 1:
-                        last[k] = self.value(data_type)
-                    former[data_type] = last[k]
+                    former[data_type] = self.entry_value(data_type, last.setdefault(k, []), repeated >> k & 1, recalled >> k & 1)
                 values += former[data_type]
             if form == 1:
                 lines.append("discover %d %s -" % (handle, self.object_class(number)))
             lines.append("in_scope %d" % handle)
             lines.append("reflect %d %s %s %s %s" % (handle, self.object_class(number), self.attributes(number, bits), self.stamp, values.hex()))
         return lines
+
+    def entry_value(self, data_type, kept, is_repeated, is_recalled):
+        """One that follows, or of those that entries brought last."""
+        if is_repeated:
+            return kept[0]
+        if is_recalled:
+            number = self.u8()
+            assert number > 0, "the last one is repeated"
+            kept.insert(0, kept.pop(number))
+            return kept[0]
+        before, value = self.at, self.value(data_type)
+        if self.at - before <= 256:
+            kept[:] = [value] + kept[:3]
+        return value
 
     def block(self, before_first=0):
         """The handles of a block's objects, as the steps between them lead."""
@@ -354,10 +369,13 @@ class Reader:
             count, time, tag = 1, parts.signed(first >> 1), 0
         else:
             count, time, tag = first >> 1, parts.signed(self.varint()), parts.signed(self.varint())
+        ahead = last[0] if count == 0 else last[0] + count * last[2]
+        reached = struct.unpack("<d", struct.pack("<Q", (struct.unpack("<Q", struct.pack("<d", ahead))[0] + time) % 2**64))[0]
+        assert math.isfinite(reached)
         if count == 0:
-            last[2:] = time, tag
-        last[0], last[1] = (last[0] + count * last[2] + time) % 2**64, (last[1] + count * last[3] + tag) % 2**64
-        self.stamp = "%016x %d" % (last[0], last[1])
+            last[2:] = reached - last[0], tag
+        last[0], last[1] = reached, (last[1] + count * last[3] + tag) % 2**64
+        self.stamp = "%s %d" % (struct.pack(">d", reached).hex(), last[1])
         return []
 
     def regions(self):
@@ -554,9 +572,9 @@ class Connection:
     def __init__(self, secret):
         self.keyframes, self.admission, self.way = parts.Keyframes(), parts.Admission(secret), parts.Way()
         self.frames = {"u": 0, "d": 0}
-        self.last_stamp = [0, 0, 0, 0]  # time, tag, and a step of each
-        self.entry_header = None  # class, attributes and repeated ones of the last block of entries
-        self.entry_values = {}  # by class: the values that entries brought last
+        self.last_stamp = [0.0, 0, 0.0, 0]  # time, tag, and a step of each
+        self.entry_header = None  # class, attributes, repeated and recalled ones of the last block of entries
+        self.entry_values = {}  # by class and attribute: the values that entries brought last, the newest first
         self.former = {}  # by object: the value of each data type that came last by the stream
 
 
@@ -568,22 +586,31 @@ def records_of(session):
         at += 9 + length
 
 
-def frames_of(stream):
+def raw_frames_of(stream):
     at = 0
     while at < len(stream):
-        (length,) = struct.unpack_from("<I", stream, at)
-        assert length > 0 and at + 4 + length <= len(stream), "a frame is empty or cut short"
-        yield bytes(stream[at + 4:at + 4 + length])
-        at += 4 + length
+        low, high = (int.from_bytes(stream[k:k + 2], "little") for k in (at, at + 2))
+        is_older = bytes(stream[at + 2:at + 4]) == bytes(2)
+        head = 4 if is_older or low >> 15 else 2
+        length = low if is_older or head == 2 else low & 32767 | high << 15
+        frame = bytes(stream[at + head:at + head + length])
+        assert 0 < length == len(frame), "a frame is empty or cut short"
+        yield is_older, frame
+        at += head + length
 
 
-def plain_frames_of(stream, admission, direction):
+def frames_of(stream, direction, admission=None):
     """Those after a proof that is good are within sealed records."""
-    frames = frames_of(stream)
-    for frame in frames:
+    has_joined, raw = False, raw_frames_of(stream)
+    for is_older, frame in raw:
+        if direction == "u":
+            assert is_older != has_joined, "the older form is that of frames up to the join's"
+            has_joined |= frame[0] == 1
+        else:
+            assert not is_older or frame[0] in (65, 112, 118, 119, 120) or 74 < frame[0] < 81, "the older form of a frame that any version need not read"
         yield frame
-        if frame[:1] in (b"\x3b", b"\x77") and admission.is_proven:
-            yield from frames_of(admission.opened(direction, list(frames)))
+        if frame[0] in (59, 119) and admission and admission.is_proven:
+            yield from frames_of(admission.opened(direction, [record for _, record in raw]), direction)
 
 
 def read_frame(frame, model, connection, direction):
@@ -611,12 +638,12 @@ def main(model_path, session_path, key_path=None):
         streams[number, direction] = stream
         if greeting:
             print("%d%s %s" % (number, direction, greeting))
-        first = next(frames_of(stream), b"")
+        first = next(frames_of(stream, direction), b"")
         if first[:1] in (b"\x3a", b"\x76"):  # hello and challenge: each proof is about both
             read_frame(first, model, connections[number], direction)
     for (number, direction), stream in sorted(streams.items()):
         connection = connections[number]
-        for frame in plain_frames_of(stream, connection.admission, direction):
+        for frame in frames_of(stream, direction, connection.admission):
             is_counted = connection.frames[direction] > 0 or frame[0] in (1, 64)  # from the one that asks to join, or lets in, on
             connection.frames[direction] += is_counted
             for line in read_frame(frame, model, connection, direction):

@@ -435,7 +435,8 @@ class Admission:
     def opened(self, direction, records):
         """The stream within sealed records."""
         key = self.derived(b"rink session 2", 1 if direction == "u" else 2)
-        return b"".join(open_sealed(key, struct.pack("<IQ", 0, number), record) for number, record in enumerate(records))
+        assert all(record[0] == 1 for record in records), "a frame is no record"
+        return b"".join(open_sealed(key, struct.pack("<IQ", 0, number), record[1:]) for number, record in enumerate(records))
 
 
 def chacha_block(key, count, nonce):

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "game/net/peer/network/frames.h"
 #include "im/filter.h"
 #include "rti/wire/stream.h"
 
@@ -42,6 +43,7 @@ void Viewer::begin(const peer::Session& session) {
       session.division(),
       [this](peer::PeerNumber to, Traffic about, const std::vector<std::uint8_t>& content) {
         sent_[static_cast<std::size_t>(about)] += content.size();
+        framed_bytes_[static_cast<std::size_t>(about)] += framed_size(1 + content.size());
         ++messages_sent_[static_cast<std::size_t>(about)];
         side_channel_.send_aside(to, with_purpose(about, content));
       });

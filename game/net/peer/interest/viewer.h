@@ -42,8 +42,9 @@ class Viewer : public WindowObserver {
   /// At the end: bodies in the player's scope, and the replicas among them.
   std::size_t in_view() const { return in_view_; }
   std::size_t told_of() const { return told_of_; }
-  /// Bytes of side messages, without frames, and messages, by purpose.
+  /// Bytes of side messages, without frames and with them, and messages, by purpose.
   const TrafficBytes& sent() const { return sent_; }
+  const TrafficBytes& framed_bytes() const { return framed_bytes_; }
   const TrafficBytes& messages_sent() const { return messages_sent_; }
 
  private:
@@ -63,7 +64,7 @@ class Viewer : public WindowObserver {
               told_of_ = 0;  ///< `lost_`: number of lost peers when all was last sent anew
   std::vector<std::pair<peer::PeerNumber, std::vector<std::uint8_t>>>
       put_off_;  ///< received while the session recovers
-  TrafficBytes sent_{}, messages_sent_{};
+  TrafficBytes sent_{}, framed_bytes_{}, messages_sent_{};
 };
 
 }  // namespace rink::game

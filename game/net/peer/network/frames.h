@@ -1,5 +1,5 @@
-// The frames between peers, which are the RTI's: a length of four bytes, then the kind and what is
-// in it, which the length counts.
+// The frames between peers, which are the RTI's: a head, then the kind and what is in it, whose
+// length the head has.
 #pragma once
 
 #include <cassert>
@@ -15,7 +15,6 @@
 
 namespace rink::game {
 
-inline constexpr std::size_t frame_head = rti::frame_header_size + 1;  ///< with the kind [bytes]
 inline constexpr std::uint32_t stranger_frame_max =
     32 * 1024;  ///< of connections that are not admitted [bytes]
 inline constexpr std::uint32_t peer_frame_max =
@@ -26,10 +25,21 @@ struct Frame {
   std::vector<std::uint8_t> content;
 };
 
+/// Of what those of another version must be able to read, the older one.
+inline rti::FrameForm form_of(FrameKind kind) {
+  return kind == FrameKind::hello || kind == FrameKind::refusal ? rti::FrameForm::older
+                                                                : rti::FrameForm::present;
+}
+
+/// The size [bytes] of a frame between peers that play.
+constexpr std::size_t framed_size(std::size_t content_size) {
+  return rti::frame_head_size(1 + content_size) + 1 + content_size;
+}
+
 inline std::vector<std::byte> framed(FrameKind kind, std::span<const std::uint8_t> content) {
   assert(kind <= frame_kind_max && content.size() < peer_frame_max);
-  rti::FrameWriter writer(peer_frame_max);
-  writer.buffer().reserve(frame_head + content.size());
+  rti::FrameWriter writer(peer_frame_max, form_of(kind));
+  writer.buffer().reserve(rti::frame_head_max + 1 + content.size());
   std::vector<std::byte>& bytes = writer.begin_message(1 + content.size());
   rti::Writer stream(bytes);
   rti::Bytes view = std::as_bytes(content);
@@ -76,7 +86,11 @@ class FrameQueue {
     if (waiting_.empty()) fresh_ = rest;
     else begin_ += before - rest.size();
     std::optional<Frame> frame;
-    if (!is_broken_ && !payload.empty()) is_broken_ = !(frame = frame_of(payload));
+    if (!is_broken_ && !payload.empty()) {
+      frame = frame_of(payload);
+      is_broken_ = !frame || reader_.form() != form_of(frame->kind);
+    }
+    if (is_broken_) frame.reset();
     if (is_broken_) waiting_.clear(), fresh_ = {}, begin_ = 0;
     return frame;
   }

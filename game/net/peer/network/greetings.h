@@ -16,7 +16,7 @@
 
 namespace rink::game {
 
-inline constexpr std::uint32_t peer_protocol_version = 13;
+inline constexpr std::uint32_t peer_protocol_version = 14;
 inline constexpr std::uint32_t peers_max = 64;
 /// The period [windows] in which zones shift toward equal load, unless a user sets another.
 inline constexpr std::uint32_t balance_windows_default = 25;
