@@ -326,13 +326,13 @@ TEST_F(GoldenImages, OfOtherWindowsAndScales) {
 
 /// Nobody pressed a key, so the puck lies where it lay.
 TEST_F(GoldenImages, OfAReplay) {
-  const game::Scene scene = game::load_scene("match");
+  const game::Scene scene = game::load_scene("paper");
   game::Playing playing(scene, {game::Playing::hand, game::Playing::hand}, 1, 0.0);
   playing.advance(8.0);
   const test::TemporaryFolder folder("replay");
   const std::string file = (folder / "still.keys").string();
   game::write_key_log(
-      file, game::log_of(playing.game(), scene, game::scene_text("match"), playing.keys()));
+      file, game::log_of(playing.game(), scene, game::scene_text("paper"), playing.keys()));
   application_ = std::make_unique<Application>(
       Surroundings{.make_match =
                        [&](const MatchWish&) { return std::make_unique<game::ReplayMatch>(file); }},
