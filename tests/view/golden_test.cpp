@@ -252,6 +252,25 @@ TEST_F(GoldenImages, OfAGoal) {
   expect_golden("goal");
 }
 
+TEST_F(GoldenImages, OfTheLastSecondsOfAPossession) {
+  MatchSight sight = match_sight();
+  sight.own_team = game::Team::left;
+  sight.left_name = "You", sight.right_name = "Bot";
+  sight.holder = game::Team::left;
+  sight.possession_s = 2.4;
+  play(sight);
+  expect_golden("shoot");
+  sight.own_team.reset();
+  sight.left_name = "left", sight.right_name = "right";
+  play(sight, Settings());
+  expect_golden("shoot_split");
+  sight.holder.reset();
+  sight.served = game::Team::right;
+  play(sight);
+  application_->set_viewpoint(Viewpoint::above);
+  expect_golden("served");
+}
+
 TEST_F(GoldenImages, OfAPause) {
   play(match_sight());
   frame();
