@@ -18,11 +18,11 @@ using namespace rink;
 /// and both clients together.
 void feel(benchmark::State& state, double delay_s, double jitter_s) {
   const rti::Fom fom = game::load_rink_fom(game::fom_file());
-  const game::Scene scene = game::load_scene("match");
+  const game::Scene scene = game::load_scene("paper");
   loadgen::Feel feel;
   for (auto _ : state)
     feel = loadgen::feel_of(
-        fom, scene, game::scene_text("match"),
+        fom, scene, game::scene_text("paper"),
         {.delay_s = delay_s, .jitter_s = jitter_s, .players = {"chaser", "chaser"}}, 120.0);
   if (!feel.is_replayed) state.SkipWithError("the record led to another hash");
   state.counters["played_s"] = feel.played_s;

@@ -278,6 +278,7 @@ ExitStatus run(const PeerOptions& options, RankCommand& command) {
                                 " wanted, the scene has " + std::to_string(shared.bat_count()) +
                                 " bats");
   if (is_match(options, shared)) return play_match(options, shared);
+  shared.require_divisible();
   require_viewing(options.terms, options.viewing, shared, options.bots);
   if (options.bots > 0 && shared.has_keys())
     throw std::invalid_argument(

@@ -60,6 +60,7 @@ void play(const PeerOptions& options, SharedGame& shared, RankNetwork& network) 
 ExitStatus share_among_ranks(PeerOptions options, RankCommand& command) {
   require_ranks(options);
   SharedGame shared = game_of(options);
+  shared.require_divisible();
   options.terms.is_replicated = false;  // MPI ends all of them if one is lost
   RankNetwork network(command.begin(),
                       {.self = {},

@@ -63,12 +63,6 @@ void add_peer_options(game::Flags& flags, PlayOptions& options,
       .check(game::number_from(1e-9, 1e6))
       .group(group)
       .shows_default();
-  options.sharing.scene = "match";
-  flags
-      .option("--scene", options.sharing.scene,
-              "a scene file or the name of a preset; the same for all peers")
-      .group(group)
-      .shows_default();
   flags
       .option(
           "--bats", options.sharing.bats,
@@ -129,6 +123,12 @@ void add_options(game::Flags& flags, PlayOptions& options) {
               "watch such a host")
       .value_name("FILE")
       .check(existing_file());
+  options.sharing.scene = "match";
+  flags
+      .option("--scene", options.sharing.scene,
+              "what is played, but by --join and --watch: match; paper, at the pace of the paper; "
+              "or a scene file; the same for all peers")
+      .shows_default();
   flags
       .option("--records", options.records,
               "folder for the records of matches (default: rink/matches in $XDG_DATA_HOME or "

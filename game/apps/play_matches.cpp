@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "game/apps/command.h"
+#include "game/control/match_flow.h"
 #include "game/control/match_records.h"
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"
@@ -107,8 +108,9 @@ class RecordedMatch final : public MatchWithin<game::LocalMatch> {
 /// connection to it, and ends after it.
 class HostedMatch final : private HostProcess, public MatchWithin<game::JoinedMatch> {
  public:
-  HostedMatch(const std::string& port, const std::string& records, const std::string& key_file)
-      : HostProcess({.port = port, .records = records, .key_file = key_file}),
+  HostedMatch(const std::string& scene, const std::string& port, const std::string& records,
+              const std::string& key_file)
+      : HostProcess({.scene = scene, .port = port, .records = records, .key_file = key_file}),
         MatchWithin("127.0.0.1:" + port, game::NetworkMatchSettings{.name = "host"}, key_file) {}
   void advance(double now_s) override {
     MatchWithin::advance(now_s);
@@ -126,6 +128,14 @@ class SharedMatch final : public MatchWithin<Peer> {
     std::cout << this->match().take_words() << std::flush;
   }
 };
+
+/// Throws SceneError for a scene that is for no match.
+game::Scene match_scene(const std::string& name) {
+  game::Scene scene = game::load_scene(name);
+  if (const auto objection = game::match_objection(scene))
+    throw game::SceneError("--scene: '" + name + "' is for no match: " + *objection);
+  return scene;
+}
 
 /// What only a game without rules of a match has.
 void require_match_flags(const PlayOptions& options) {
@@ -184,8 +194,11 @@ std::unique_ptr<game::MatchSource> make_shared_match(const PlayOptions& options,
 std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const PlayOptions& options) {
   using Kind = MatchWish::Kind;
   const std::string records = records_folder(options);
-  if (wish.kind == Kind::host)
-    return std::make_unique<HostedMatch>(wish.address, host_records(records), options.key_file);
+  if (wish.kind == Kind::host) {
+    match_scene(options.sharing.scene);
+    return std::make_unique<HostedMatch>(options.sharing.scene, wish.address, host_records(records),
+                                         options.key_file);
+  }
   if (wish.kind == Kind::join)
     return std::make_unique<game::JoinedMatch>(
         wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())},
@@ -198,8 +211,10 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const PlayO
         options.key_file);
   if (wish.kind == Kind::replay) return std::make_unique<game::ReplayMatch>(wish.address);
   if (wish.kind == Kind::peer) return make_shared_match(options, records);
-  const game::Scene scene = game::load_scene("match");
-  game::LocalMatchSettings settings{.seed = options.seed, .scene_text = game::scene_text("match")};
+  // Behind the menu two bots play, whatever is to be played.
+  const std::string name = wish.kind == Kind::bots ? "match" : options.sharing.scene;
+  const game::Scene scene = match_scene(name);
+  game::LocalMatchSettings settings{.seed = options.seed, .scene_text = game::scene_text(name)};
   if (wish.kind == Kind::bots) {
     settings.players = {"chaser", "chaser"};
     settings.times.countdown_s = 0.0;

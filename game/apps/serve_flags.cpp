@@ -38,9 +38,11 @@ void add_options(Flags& flags, ServeOptions& options) {
                            "build/bin/rink-serve --transport mpi --scene arena --duration 20\n\n") +
                exit_status_help);
   flags.name("rink serve");
-  flags.option("match", options.hosted,
-               "host matches of this scene, one after the other, until interrupted; by default "
-               "with policy on-event at 60 ticks per second (docs/play.md)");
+  flags.option(
+      "match", options.hosted,
+      "host matches of this scene, match, paper or another one for two, one after the other, "
+      "until interrupted; by default with policy on-event at 60 ticks per second "
+      "(docs/play.md)");
   flags.option("--countdown", options.countdown_s, "length of the countdown of hosted matches [s]")
       .check(number_from(0.0, 60.0))
       .shows_default();
@@ -50,7 +52,8 @@ void add_options(Flags& flags, ServeOptions& options) {
           "how long a hosted match waits for a player that has left, and nodes keep its bat [s]")
       .check(number_from(0.0, 3600.0))
       .shows_default();
-  flags.option("--scene", options.scene, "preset (match, crowd) or TOML file").shows_default();
+  flags.option("--scene", options.scene, "preset (match, paper, crowd) or TOML file")
+      .shows_default();
   flags
       .option("--bats", options.bats,
               "scale the scene to so many bats at its own density; 0: as it is")

@@ -38,7 +38,7 @@ struct Options {
   std::vector<std::string> players;
   double until = 0.0;
   std::optional<std::uint64_t> seed, events_per_s;
-  std::optional<std::uint32_t> bats, threads;
+  std::optional<std::uint32_t> bats, threads, games;
   physics::SimulatorChoice engine;
   bool has_integrator = false, has_dt = false;
 };
@@ -60,6 +60,10 @@ game::Scene scene_of(const Options& options) {
   if (scene.network_grid > 0.0 && options.engine.engine != "exact")
     throw game::SceneError("the scene " + scene.name + " has a network_grid, which the engine " +
                            options.engine.engine + " knows nothing of: expected --engine exact");
+  if (scene.rules.possession_s > 0.0 && options.engine.engine != "exact")
+    throw game::SceneError("the scene " + scene.name +
+                           " has possession_s, a rule that the engine " + options.engine.engine +
+                           " cannot keep: expected --engine exact, or a scene without, as paper");
   return scene;
 }
 
@@ -191,7 +195,26 @@ void require_room_for(std::uint32_t threads, const game::Scene& scene) {
   if (objection) throw game::SceneError("--threads: " + *objection);
 }
 
+/// Instead of one game: how many goals come in a minute, over many.
+int measure_goals(const Options& options) {
+  if (options.until == 0.0 || options.engine.engine != "exact")
+    throw game::SceneError("--games: expected --until above 0 and --engine exact");
+  const game::Scene scene = scene_of(options);
+  const game::GoalRatePlan plan{.players = options.players,
+                                .games = *options.games,
+                                .seconds = options.until,
+                                .seed = scene.seed};
+  std::ofstream summary = opened(options.summary);
+  errno = 0;
+  (options.summary.empty() ? std::cout : summary)
+      << game::summary_of(scene, plan, game::goal_rate(scene, plan)) << '\n';
+  require_written(std::cout.flush().good(), "the standard output");
+  close(summary, options.summary);
+  return 0;
+}
+
 int simulate(const Options& options) {
+  if (options.games) return measure_goals(options);
   game::Scene scene = scene_of(options);
   const std::uint32_t threads = options.threads.value_or(1);
   require_room_for(threads, scene);
@@ -235,7 +258,7 @@ void require_engine(const Options& options) {
         " would take more than 1e12 frames of --dt: expected longer frames or less time");
 }
 
-std::string allowed_players() { return "random, " + game::listed(game::player_kinds()); }
+std::string allowed_players() { return "random, nobody, " + game::listed(game::player_kinds()); }
 
 }  // namespace
 
@@ -276,12 +299,22 @@ int main(int count, char** words) {
       .delimiter(',')
       .excludes(keys)
       .check([](const std::string& name) {
-        return game::is_player_kind(name) ? std::string()
-                                          : name + ": expected one of " + allowed_players();
+        return name == game::Playing::nobody || game::is_player_kind(name)
+                   ? std::string()
+                   : name + ": expected one of " + allowed_players();
       });
-  flags.option("--record", options.record,
-               "write the game to this key log: scene, keys and final hash; rink replay, --keys "
-               "and rink serve --keys play it again");
+  const game::Flag players = flags.find("--players");
+  const game::Flag record = flags.option(
+      "--record", options.record,
+      "write the game to this key log: scene, keys and final hash; rink replay, --keys "
+      "and rink serve --keys play it again");
+  flags
+      .option("--games", options.games,
+              "play so many games instead of one, each of --until seconds, without an end by goals "
+              "and from a start of its own, and print how many goals come in a minute")
+      .check(game::whole_number_from(1, 1'000'000))
+      .needs(players)
+      .excludes(record);
   flags.option("--seed", options.seed,
                "seed of the scene's populations (default: the scene's own)");
   flags
@@ -321,7 +354,9 @@ int main(int count, char** words) {
   flags.footer(
       "Example: rink simulate crowd --until 10 --states states.csv\nExample: rink simulate crowd "
       "--until 10 --engine paper --integrator rk4 --dt 0.004\nExample: rink simulate match "
-      "--players chaser,random --until 120 --seed 3 --record match.keys\nExit status: 0 done, 2 "
+      "--players chaser,random --until 120 --seed 3 --record match.keys\nExample: rink simulate "
+      "match "
+      "--players chaser-expert,nobody --until 60 --games 100\nExit status: 0 done, 2 "
       "bad scene, key log or flag, 3 stopped by --budget, 130 interrupted (with the results of "
       "the instant reached; a second interrupt ends at once).");
   return game::run_command(flags, count, words,

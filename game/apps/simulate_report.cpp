@@ -101,4 +101,20 @@ std::string summary_of(const Game& game, const physics::SimulatorChoice& engine,
   return summary.dump(2);
 }
 
+std::string summary_of(const Scene& scene, const GoalRatePlan& plan, const GoalRate& rate) {
+  return Json{{"schema", report_schema},
+              {"scene", scene.name},
+              {"players", plan.players},
+              {"games", plan.games},
+              {"seconds", plan.seconds},
+              {"goals_per_min", rate.left_per_min + rate.right_per_min},
+              {"goals_per_min_error_95", rate.error_per_min},
+              {"goals_left_per_min", rate.left_per_min},
+              {"goals_right_per_min", rate.right_per_min},
+              {"serves_per_min", rate.serves_per_min},
+              {"longest_wait_s", rate.longest_wait_s},
+              {"hash", hexadecimal(rate.hash)}}
+      .dump(2);
+}
+
 }  // namespace rink::game

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "game/control/game.h"
+#include "game/control/goal_rate.h"
 #include "game/physics/event_budget.h"
 
 namespace rink::game {
@@ -26,5 +27,8 @@ void write_events(std::ostream& stream, std::span<const physics::Event> events);
 /// whether it was exceeded, by which bodies and why.
 std::string summary_of(const Game& game, const physics::SimulatorChoice& engine, double wall_s,
                        const std::optional<physics::EventBudget>& budget);
+
+/// What `plan`'s games came to, as one JSON object with its `schema`.
+std::string summary_of(const Scene& scene, const GoalRatePlan& plan, const GoalRate& rate);
 
 }  // namespace rink::game

@@ -17,13 +17,44 @@ namespace {
 
 Team other(Team team) { return team == Team::left ? Team::right : Team::left; }
 
+physics::Halves halves_of(const Scene& scene, const physics::World* world) {
+  if (world == nullptr || scene.rules.possession_s == 0.0) return {};
+  return {scene.world.field.length / 2, scene.rules.possession_s};
+}
+
+/// Where a puck is put that `team` is to have.
+Vector2 spot_before(Team team, const physics::Field& field, const MatchRules& rules) {
+  const double from_end = rules.face_off_distance * field.length;
+  return {team == Team::left ? from_end : field.length - from_end, field.width / 2};
+}
+
+/// Puts the pucks whose time in one half is over before the other side. One for which there is no
+/// place stays where it is, and on its way.
+void serve(physics::World& world, const MatchRules& rules, physics::Halves& halves,
+           std::vector<ServedPuck>& served) {
+  for (const physics::HalfStay& stay : halves.stays()) {
+    if (stay.until > world.now()) continue;
+    const Team team = stay.half == physics::Half::left ? Team::right : Team::left;
+    const auto place = nearest_free_disc(world, spot_before(team, world.spec().field, rules),
+                                         world.radius(stay.puck));
+    if (!place) {
+      halves.prolong(stay.puck, stay.until + Game::placement_retry);
+      continue;
+    }
+    world.place(stay.puck, *place, Vector2::Zero());
+    halves.restart(stay.puck);
+    served.push_back({world.now(), stay.puck, team});
+  }
+}
+
 }  // namespace
 
 Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
     : simulator_(physics::make_simulator(scene.world, engine)),
       world_(simulator_->exact_world()),
       rules_(scene.rules),
-      grid_(world_ != nullptr ? scene.network_grid : 0.0) {
+      grid_(world_ != nullptr ? scene.network_grid : 0.0),
+      halves_(halves_of(scene, world_)) {
   for (const Post& post : scene.bodies.posts) {
     const EntityId id = simulator_->add(post.body);
     entities_.push_back({.id = id,
@@ -43,6 +74,7 @@ Game::Game(const Scene& scene, const physics::SimulatorChoice& engine)
                          .team = Team::none,
                          .half_extent = simulator_->half_extent(id),
                          .player = std::nullopt});
+    if (halves_.are_kept()) halves_.follow(*world_, id);
   }
   spawned_.clear();
   for (const InputEvent& event : scene.keys) submit(event);
@@ -61,6 +93,7 @@ Game::Game(const Game& other)
       submitted_(other.submitted_),
       over_(other.over_),
       face_offs_(other.face_offs_),
+      halves_(other.halves_),
       score_(other.score_),
       is_over_(other.is_over_),
       is_cut_short_(other.is_cut_short_) {
@@ -107,6 +140,7 @@ bool Game::play(double until, physics::EventBudget* budget) {
   spawned_.clear();
   removed_.clear();
   scored_.clear();
+  served_.clear();
   grid_.forget();
   simulator_->forget_events();
   do {
@@ -114,7 +148,12 @@ bool Game::play(double until, physics::EventBudget* budget) {
     if (is_cut_short_) return false;
     if (now() == grid_.next()) grid_.round(*simulator_->exact_world());
     face_off_until(now());
+    if (halves_.next() <= now()) {
+      over_ = now();
+      serve(*simulator_->exact_world(), rules_, halves_, served_);
+    }
     apply_inputs_until(now());
+    if (halves_.are_kept()) halves_.look(*world_);
   } while (now() < until);
   assert(next_instant(std::numeric_limits<double>::infinity()) > now() &&
          "all that was due has been done");
@@ -128,6 +167,7 @@ void Game::show(double until, std::span<const ShownBody> bodies, std::span<const
   spawned_.clear();
   removed_.clear();
   scored_.clear();
+  served_.clear();
   physics::World& world = *simulator_->exact_world();
   physics::Subdomain::show_instant(world, until);
   for (const ShownBody& body : bodies) {
@@ -141,19 +181,23 @@ void Game::show(double until, std::span<const ShownBody> bodies, std::span<const
   score_ = score.score;
   is_over_ = score.is_over;
   face_offs_ = score.face_offs;
+  if (is_over_) halves_ = {};
+  halves_.show(score.stays);
 }
 
 /// The earliest instant at which more than motion happens, at most `until`.
 double Game::next_instant(double until) const {
   if (!inputs_.empty()) until = std::min(until, inputs_.front().event.time);
   if (!face_offs_.empty()) until = std::min(until, face_offs_.front().time);
-  return std::min(until, grid_.next());
+  return std::min({until, grid_.next(), halves_.next()});
 }
 
 /// A goal may bring the next instant forward, for its face-off is one.
 bool Game::play_until(double until, physics::EventBudget* budget) {
   const auto is_exceeded = [budget] { return budget != nullptr && budget->is_exceeded(); };
   const auto move = [&] {
+    if (halves_.are_kept())
+      return halves_.advance(*simulator_->exact_world(), *world_, until, budget);
     return budget != nullptr ? simulator_->exact_world()->advance(until, *budget)
                              : simulator_->advance(until);
   };
@@ -174,7 +218,7 @@ void Game::count_goal(const physics::Goal& goal) {
   ++goals;
   scored_.push_back({goal.time, goal.puck, scoring});
   is_over_ = rules_.goals_to_win && goals >= *rules_.goals_to_win;
-  if (is_over_) face_offs_.clear();
+  if (is_over_) face_offs_.clear(), halves_ = {};
   else schedule({goal.time + rules_.face_off_delay, goal.puck, conceding});
 }
 
@@ -197,11 +241,9 @@ void Game::face_off_until(double instant) {
 
 void Game::face_off(const FaceOff& due) {
   assert(!simulator_->is_in_play(due.puck) && "it lies in the goal into which it went");
-  const physics::Field& field = simulator_->spec().field;
-  const double from_end = rules_.face_off_distance * field.length;
-  const Vector2 spot(due.conceding == Team::left ? from_end : field.length - from_end,
-                     field.width / 2);
-  if (const auto place = nearest_free_disc(*simulator_, spot, simulator_->radius(due.puck)))
+  if (const auto place = nearest_free_disc(
+          *simulator_, spot_before(due.conceding, simulator_->spec().field, rules_),
+          simulator_->radius(due.puck)))
     simulator_->place(due.puck, *place, Vector2::Zero());
   else schedule({due.time + placement_retry, due.puck, due.conceding});
 }
@@ -305,7 +347,14 @@ std::uint64_t Game::hash() const {
   for (const Seat& seat : seats_) players.push_back(&seat.controller);
   StateHash hash = begun_game_hash(simulator_->hash(), entities_, players, score_);
   for (const FaceOff& due : face_offs_) hash.add(due.time), hash.add(std::uint64_t{due.puck.index});
+  add_stays(hash, halves_.stays());
   return hash.value();
+}
+
+void add_stays(StateHash& hash, std::span<const physics::HalfStay> stays) {
+  for (const physics::HalfStay& stay : stays)
+    hash.add(stay.until), hash.add(std::uint64_t{stay.puck.index} << 1 |
+                                   (stay.half == physics::Half::right ? 1u : 0u));
 }
 
 StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,

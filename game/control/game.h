@@ -15,6 +15,7 @@
 #include "game/model/scene.h"
 #include "game/model/state_hash.h"
 #include "game/physics/body_state.h"
+#include "game/physics/halves/halves.h"
 #include "game/physics/simulator_choice.h"
 #include "game/physics/world.h"
 
@@ -39,6 +40,13 @@ struct ScoredGoal {
   Team team = Team::none;
 };
 
+/// `puck` had stayed in one half for too long and was put before `team` at `time` [s].
+struct ServedPuck {
+  double time = 0.0;
+  EntityId puck;
+  Team team = Team::none;
+};
+
 struct Score {
   std::uint32_t left = 0, right = 0;
   friend bool operator==(const Score&, const Score&) = default;
@@ -46,8 +54,8 @@ struct Score {
 
 /// Factory and mediator. Knows no clock: the caller says how far to `advance`. The game depends on
 /// the scene and the inputs alone, never on how often or how far `advance` is called. At one
-/// instant motion and goals come first, then the network grid, then face-offs, then inputs in order
-/// of player, each player's in order of submission.
+/// instant motion and goals come first, then the network grid, then face-offs, then serves, then
+/// inputs in order of player, each player's in order of submission.
 class Game {
  public:
   /// All bats of the scene are in play from the start, and the scene's scripted keys are submitted.
@@ -92,6 +100,7 @@ class Game {
     Score score;
     bool is_over = false;
     std::vector<FaceOff> face_offs;
+    std::vector<physics::HalfStay> stays;  ///< where the scene limits them
   };
   /// Shows what another simulation of the scene has come to at `until` [s], not before now(), on
   /// the exact engine (both asserted): these bodies have changed there, these keys of bats in play
@@ -167,8 +176,14 @@ class Game {
   /// What the player, who must have a seat (asserted), pushes beside the keys.
   friend Push pushed(const Game& game, std::uint32_t player);
 
-  /// FNV-1a of the world's hash, the entities, held keys, score and pending face-offs: equal for
-  /// equal games.
+  /// Pucks that were put before the other side in the last `advance`, in order of time.
+  friend std::span<const ServedPuck> served_in(const Game& game) { return game.served_; }
+  /// Of the pucks in play, by id, how long they may stay in their halves; none where the scene sets
+  /// no limit, on other engines than the exact one, and once the match is over.
+  friend std::vector<physics::HalfStay> stays_in(const Game& game) { return game.halves_.stays(); }
+
+  /// FNV-1a of the world's hash, the entities, held keys, score, pending face-offs and stays: equal
+  /// for equal games.
   std::uint64_t hash() const;
 
   /// Asserts that entities and seats refer to each other, that queued inputs are in order and not
@@ -218,15 +233,19 @@ class Game {
   std::uint64_t submitted_ = 0;
   double over_ = -1.0;  ///< the last instant of which more than motion has been played [s]
   std::vector<FaceOff> face_offs_;  ///< ordered by time, then puck
+  physics::Halves halves_;
   Score score_;
   bool is_over_ = false, is_cut_short_ = false;
   std::vector<Entity> spawned_, removed_;
   std::vector<ScoredGoal> scored_;
+  std::vector<ServedPuck> served_;
 };
 
 /// The beginning of a game's hash, for games in parts: the world's hash, its entities, the keys
 /// held, in order of player, and the score; pending face-offs follow.
 StateHash begun_game_hash(std::uint64_t world, std::span<const Entity> entities,
                           std::span<const BatController* const> players, const Score& score);
+/// Then the stays, if the scene limits them.
+void add_stays(StateHash& hash, std::span<const physics::HalfStay> stays);
 
 }  // namespace rink::game

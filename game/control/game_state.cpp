@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <tuple>
@@ -82,6 +83,23 @@ bool exchange_world(ByteReader& reader, std::unique_ptr<physics::Simulator>& sim
   return true;
 }
 
+template <class Stream>
+bool exchange_stay(Stream& stream, physics::HalfStay& stay) {
+  return stream.numbers(stay.puck.index, stay.until) &&
+         stream.choice(stay.half, physics::Half::right);
+}
+
+/// Whether these can be the stays of a game that goes on in `world`.
+bool may_be(std::span<const physics::HalfStay> stays, const physics::World& world) {
+  return std::ranges::adjacent_find(stays, std::greater_equal<>(), &physics::HalfStay::puck) ==
+             stays.end() &&
+         std::ranges::all_of(stays, [&world](const physics::HalfStay& stay) {
+           return stay.puck.index < world.body_count() &&
+                  world.kind(stay.puck) == physics::BodyKind::puck && world.is_in_play(stay.puck) &&
+                  std::isfinite(stay.until) && stay.until > world.now();
+         });
+}
+
 }  // namespace
 
 /// Rules and bats are the scene's, and so is the way in which its world is divided.
@@ -108,6 +126,23 @@ bool GameState::exchange(Stream& stream, Game& game) {
   for (Game::FaceOff& due : game.face_offs_)
     if (!stream.numbers(due.time, due.puck.index) || !stream.choice(due.conceding, Team::none))
       return false;
+  return exchange_halves(stream, game);
+}
+
+/// Of scenes that limit how long pucks stay in a half.
+template <class Stream>
+bool GameState::exchange_halves(Stream& stream, Game& game) {
+  if (game.rules_.possession_s == 0.0) return true;
+  std::vector<physics::HalfStay> stays = game.halves_.stays();
+  if (!stream.size(stays)) return false;
+  for (physics::HalfStay& stay : stays)
+    if (!exchange_stay(stream, stay)) return false;
+  if constexpr (std::is_same_v<Stream, ByteReader>) {
+    const physics::World& world = *game.simulator_->exact_world();
+    if (!may_be(stays, world) || (game.is_over_ && !stays.empty())) return false;
+    if (game.is_over_) game.halves_ = {};
+    else game.halves_.restore(world, stays);
+  }
   return true;
 }
 

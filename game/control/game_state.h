@@ -31,6 +31,8 @@ class GameState {
  private:
   template <class Stream>
   static bool exchange(Stream& stream, Game& game);
+  template <class Stream>
+  static bool exchange_halves(Stream& stream, Game& game);
   static bool is_sound(const Game& game);
 };
 

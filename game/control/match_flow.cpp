@@ -29,6 +29,14 @@ std::optional<std::string> match_objection(const Scene& scene) {
   return std::nullopt;
 }
 
+std::optional<EndingPossession> ending_possession(const Game& game) {
+  const std::vector<physics::HalfStay> stays = stays_in(game);
+  const auto first = std::ranges::min_element(stays, {}, &physics::HalfStay::until);
+  if (first == stays.end() || first->until > game.now() + possession_shown_s) return std::nullopt;
+  return EndingPossession{first->half == physics::Half::left ? Team::left : Team::right,
+                          first->until};
+}
+
 MatchFlow::MatchFlow(const FlowTimes& times, const MatchState& state, std::array<bool, 2> are_here)
     : times_(times), state_(state), is_here_(are_here) {
   const MatchPhase phase = state.phase;

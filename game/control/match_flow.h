@@ -34,6 +34,9 @@ struct MatchState {
                                         ///< both advance from there [s]
   std::array<bool, 2> wants_rematch{};  ///< by player
   std::optional<Team> winner;           ///< once it is over
+  /// On whose side the puck is for the last seconds of its time while it is played: then `until_s`
+  /// is when it goes to the other; set by the host, no rule depends on it.
+  std::optional<Team> holder{};
   bool is_unrecorded = false;  ///< the last match could not be recorded; set by the host, no rule
                                ///< depends on it
   bool takes_keys_alone = false;  ///< no pushes; set by the host, no rule depends on it
@@ -45,6 +48,16 @@ double simulated_at(const MatchState& state, double real_s);
 
 /// The reason why `scene` is not for a match of two with a winner; nothing if it is.
 std::optional<std::string> match_objection(const Scene& scene);
+
+/// The puck of `team` that goes to the other side first, at `until` [s, simulated].
+struct EndingPossession {
+  Team team = Team::none;
+  double until = 0.0;
+};
+
+/// In its last `possession_shown_s` [s]; nothing before, and without such a rule.
+inline constexpr double possession_shown_s = 3.0;
+std::optional<EndingPossession> ending_possession(const Game& game);
 
 /// How long things take [s].
 struct FlowTimes {

@@ -31,7 +31,7 @@ Playing::Playing(const Scene& scene, const std::vector<std::string>& kinds, std:
       planned_.insert(planned_.end(), keys.begin(), keys.end());
       continue;
     }
-    if (kind == hand) continue;
+    if (kind == hand || kind == nobody) continue;
     assert(is_player_kind(kind));
     const Bat& bat = scene.bodies.bats[number];
     const PlayerSeat seat{.number = number, .team = bat.team, .half_extent = bat.body.half_extent};
@@ -71,6 +71,7 @@ void Playing::record_events(bool is_wanted) {
 bool Playing::play_until(double instant, physics::EventBudget* budget) {
   if (budget != nullptr) game_.advance(instant, *budget);
   else game_.advance(instant);
+  serve_count_ += served_in(game_).size();
   if (records_events_)
     happened_.insert(happened_.end(), game_.events().begin(), game_.events().end());
   return !game_.is_cut_short();

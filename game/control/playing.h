@@ -19,10 +19,12 @@ class Playing {
  public:
   /// The kind of a bat without a player of its own: the caller plays it by press().
   static constexpr const char* hand = "hand";
+  /// The kind of a bat that is left alone.
+  static constexpr const char* nobody = "nobody";
 
-  /// `kinds`, at least one: bat k is played by kind k modulo their number, each `hand`, "random" or
-  /// one of player_kinds() (asserted). `until`: how long random players press keys [s]. `engine`:
-  /// what moves the bodies.
+  /// `kinds`, at least one: bat k is played by kind k modulo their number, each `hand`, `nobody`,
+  /// "random" or one of player_kinds() (asserted). `until`: how long random players press keys [s].
+  /// `engine`: what moves the bodies.
   Playing(const Scene& scene, const std::vector<std::string>& kinds, std::uint64_t seed,
           double until, const physics::SimulatorChoice& engine = {});
 
@@ -41,6 +43,8 @@ class Playing {
   /// As Game's: makes `events` list all events of bodies in the last `advance`.
   void record_events(bool is_wanted);
   std::span<const physics::Event> events() const { return happened_; }
+  /// Pucks that went to the other side as their time in one half was over.
+  std::uint64_t serve_count() const { return serve_count_; }
   /// All keys and pushes up to now(), ordered by time, then player.
   std::vector<InputEvent> keys() const;
 
@@ -76,6 +80,7 @@ class Playing {
   };
   std::vector<Located> located_;  ///< all pucks in play, where they were at located_s_
   double located_s_ = -1.0;
+  std::uint64_t serve_count_ = 0;
   bool records_events_ = false;
   std::vector<physics::Event> happened_;
 };

@@ -64,6 +64,10 @@ struct MatchSight {
   double remaining_s = 0.0;    ///< of countdown and away
   std::optional<Team> scorer;  ///< of the goal whose face-off is still to come
   double since_goal_s = 0.0;   ///< real seconds since then
+  std::optional<Team>
+      holder{};               ///< on whose side the puck is in the last seconds of its time there
+  double possession_s = 0.0;  ///< until it goes to the other side [s]
+  std::optional<Team> served{};  ///< to whom it went so, for a while
   std::optional<Team> winner;
   std::optional<Team> own_team;  ///< of the player of this window, if it is one's own: the field is
                                  ///< seen from that end

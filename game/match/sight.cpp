@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include "im/basics/checked.h"
 
@@ -56,6 +58,9 @@ bool is_shown(const Game& game, const Entity& entity) {
 void GameSight::show(const Game& game, MatchSight& sight) {
   sight.time = game.now();
   sight.score = game.score();
+  const std::optional<EndingPossession> ending = ending_possession(game);
+  sight.holder = ending ? std::optional(ending->team) : std::nullopt;
+  sight.possession_s = ending ? ending->until - game.now() : 0.0;
   movers_.look(game.world());
   const auto has_other_place = [&](physics::BodyId id) {
     const bool is_there = game.is_there(id) && is_shown(game, game.entity(id));
@@ -114,6 +119,34 @@ void GoalWatch::look(MatchSight& sight, double now_s, double face_off_delay) {
   score_ = sight.score;
   sight.scorer = scorer_;
   sight.since_goal_s = scorer_ ? now_s - goal_real_s_ : 0.0;
+  serves_.look(sight, now_s);
+}
+
+/// A puck that is put elsewhere leaps further than any flies between two pictures; over a network
+/// it does so a round trip after its time is shown to be over.
+void ServeWatch::look(MatchSight& sight, double now_s) {
+  constexpr double about_over_s = 0.25, leap = 0.3, patience_s = 1.0;
+  if (sight.phase != MatchPhase::playing) sight.holder.reset();
+  if (sight.holder && sight.possession_s < about_over_s)
+    ending_ = sight.holder, ending_real_s_ = now_s;
+  if (sight.phase != MatchPhase::playing || now_s > ending_real_s_ + patience_s) ending_.reset();
+  const auto has_leapt = [&](const Thing& puck) {
+    const auto before = std::ranges::find(pucks_, puck.id, &Thing::id);
+    const bool is_left = puck.position.x() < sight.field.length / 2;
+    return before != pucks_.end() && (puck.position - before->position).norm() > leap &&
+           is_left != (ending_ == Team::left);
+  };
+  const auto is_puck = [](const Thing& thing) { return thing.kind == physics::BodyKind::puck; };
+  std::vector<Thing> pucks;
+  std::ranges::copy_if(sight.things, std::back_inserter(pucks), is_puck);
+  if (ending_ && std::ranges::any_of(pucks, has_leapt)) {
+    served_ = *ending_ == Team::left ? Team::right : Team::left;
+    served_real_s_ = now_s;
+    ending_.reset();
+  }
+  pucks_ = std::move(pucks);
+  if (sight.phase != MatchPhase::playing || now_s > served_real_s_ + shown_s) served_.reset();
+  sight.served = served_;
 }
 
 }  // namespace rink::game

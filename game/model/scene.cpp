@@ -170,6 +170,8 @@ std::uint64_t fingerprint(const Scene& scene) {
   hash.add(std::uint64_t{scene.rules.goals_to_win.value_or(0)});
   hash.add(scene.rules.face_off_delay);
   hash.add(scene.rules.face_off_distance);
+  if (scene.rules.possession_s > 0.0)
+    hash.add(std::uint64_t{4}), hash.add(scene.rules.possession_s);
   if (scene.network_grid > 0.0) hash.add(std::uint64_t{3}), hash.add(scene.network_grid);
   return hash.value();
 }

@@ -85,11 +85,16 @@ struct Population {
 };
 
 struct MatchRules {
+  /// Below, a puck for which there is no place would be due again before it could have left.
+  static constexpr double possession_min = 0.1;
+
   std::optional<std::uint32_t>
       goals_to_win;                 ///< absent in a crowd: goals are counted and play goes on
   double face_off_delay = 1.0;      ///< from a goal until its puck is back [s], above 0
   double face_off_distance = 0.25;  ///< of the spot from the conceding side's end, as part of the
                                     ///< field's length, within (0, 1)
+  double possession_s = 0.0;  ///< how long a puck may stay in one half until the other side gets
+                              ///< it, from possession_min on; 0: as long as it likes
 };
 
 /// The description of a game. `bodies` are all bodies: first those that the scene places itself,

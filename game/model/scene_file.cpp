@@ -148,6 +148,8 @@ class SceneReader {
       scene_.rules.goals_to_win = static_cast<std::uint32_t>(goals);
     table->number("face_off_delay", scene_.rules.face_off_delay, limit::delay);
     table->number("face_off_distance", scene_.rules.face_off_distance, {0.0, 1.0, true});
+    table->number("possession_s", scene_.rules.possession_s,
+                  {MatchRules::possession_min, limit::time_max});
     table->finish();
   }
 

@@ -56,6 +56,7 @@ Node::Node(SharedGame& game, Meeting& meeting, const NodeSettings& settings, dou
     throw SceneError("scene '" + game.scene().name +
                      "' has keys of its own, and nodes play those of their clients: expected one "
                      "without");
+  if (!settings.hosting) game.require_divisible();
 }
 
 void Node::meet() {

@@ -22,8 +22,10 @@ std::vector<Game::ShownBody> bodies_of(const peer::PartChange& change, const Gam
 }
 
 Game::ShownScore shown_score(const peer::Scoring& scoring) {
-  Game::ShownScore shown{
-      .score = {scoring.left, scoring.right}, .is_over = scoring.is_over, .face_offs = {}};
+  Game::ShownScore shown{.score = {scoring.left, scoring.right},
+                         .is_over = scoring.is_over,
+                         .face_offs = {},
+                         .stays = scoring.halves.stays()};
   for (const peer::FaceOff& due : scoring.face_offs)
     shown.face_offs.push_back({due.time, {due.puck}, due.is_left ? Team::left : Team::right});
   return shown;

@@ -95,6 +95,8 @@ class Peer {
   /// Keys of live players that took effect on own bats in the last window, in order.
   const std::vector<Key>& log() const { return keys_.log(); }
 
+  /// As Share::follow().
+  friend void follow(Peer& peer, const physics::Halves& halves) { peer.share_.follow(halves); }
   void play();
   Claims claims_for(PeerNumber peer);
   /// Checks all messages by `validator` from now on. An invalid one is dropped, and its sender is

@@ -33,6 +33,12 @@ class EventBudget {
   explicit EventBudget(std::uint64_t events_per_s) : events_per_s_(events_per_s) {
     assert(events_per_s > 0);
   }
+  /// One that ends after each event, of which it tells by recent().
+  static EventBudget of_one_event() {
+    EventBudget budget(1);
+    budget.events_per_s_ = 0;
+    return budget;
+  }
   std::uint64_t events_per_s() const { return events_per_s_; }
 
   /// Events come in order of time (asserted), and none while the budget is exceeded (asserted).

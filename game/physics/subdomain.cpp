@@ -297,6 +297,12 @@ void Subdomain::advance(double until) {
   }
 }
 
+void Subdomain::advance(double until, Halves& halves) {
+  while (halves.advance(world_, part_, until, nullptr)) {
+  }
+  assert(world_.now() == until && "windows end where a stay does");
+}
+
 void WorldJournal::observe(World& world) {
   journal_ = {};
   journal_.rooms_of.assign(world.body_count(), 0);

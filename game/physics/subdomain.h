@@ -13,6 +13,7 @@
 #include "game/physics/bodies/journal.h"
 #include "game/physics/bodies/world_mark.h"
 #include "game/physics/body_slots.h"
+#include "game/physics/halves/halves.h"
 #include "game/physics/part_world.h"
 #include "game/physics/real.h"
 #include "game/physics/world.h"
@@ -120,6 +121,8 @@ class Subdomain {
     world_.set_thrust({slot(bat)}, acceleration);
   }
   void advance(double until);
+  /// The same, for who follows the pucks' halves, of which no stay may end before (asserted).
+  void advance(double until, Halves& halves);
 
  private:
   friend class MotionGrid;

@@ -46,7 +46,8 @@ class World final : public Simulator {
   /// present thrust changes nothing.
   void set_thrust(BodyId bat, const Vector2& acceleration) override;
 
-  /// Puts a puck that is out of play back at now(). The place must be free (asserted).
+  /// Puts a puck there at now(), back in play if it was out of it; what it held in place is
+  /// released. The place must be free (asserted).
   void place(BodyId puck, const Vector2& position, const Vector2& velocity) override;
 
   /// Processes every event up to and including `until` [s] (not before now()), or up to the first

@@ -53,7 +53,8 @@ Chaser::Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t s
   assert(skill.aim_error >= 0.0 && skill.effort > 0.0 && skill.effort <= 1.0);
 }
 
-KeysHeld Chaser::decide(const PlayerView& view, double) {
+KeysHeld Chaser::decide(const PlayerView& view, double instant) {
+  if (rules_.possession_s > 0.0) note_stays(view, instant);
   if (decisions_++ % misjudges_anew == 0) misjudged_ = skill_.aim_error * random_.in_disc();
   const bool is_idle = skill_.effort < 1.0 && random_.uniform() >= skill_.effort;
   return hands_.hold(is_idle ? KeysHeld{} : keys_for(view), view.velocity, random_);
@@ -81,11 +82,38 @@ void Chaser::foresee_bat(const PlayerView& view, Sight& sight) const {
   sight.bat = reach_.clamped(sight.bat);
 }
 
+void Chaser::note_stays(const PlayerView& view, double instant) {
+  instant_ = instant;
+  std::vector<Stay> stays;
+  for (const SeenEntity& puck : view.pucks) {
+    if (turned(puck.position).x() > 0.5 * rules_.field.length) continue;
+    const auto known = std::ranges::find(stays_, puck.id, &Stay::puck);
+    stays.push_back(known != stays_.end() ? *known : Stay{puck.id, instant});
+  }
+  stays_ = std::move(stays);
+}
+
+double Chaser::left_s(std::uint32_t puck) const {
+  const auto stay = std::ranges::find(stays_, puck, &Stay::puck);
+  if (stay == stays_.end()) return std::numeric_limits<double>::infinity();
+  return stay->since + rules_.possession_s - instant_;
+}
+
+/// Whether the puck that goes on from `place` at `speed` along the field is not over the line when
+/// its time is over. Without the drag, which takes little on the way.
+bool Chaser::is_too_late(const Sight& sight, const Span& span, const Vector2& place,
+                         double speed) const {
+  if (std::isinf(sight.left_s)) return false;
+  const double way = 0.5 * rules_.field.length - place.x();
+  return way > 0.0 && span.puck_ahead * speed + way > sight.left_s * speed;
+}
+
 Chaser::Sight Chaser::sight_of(const SeenEntity& puck, const Sight& bat) const {
   Sight sight = bat;
   sight.puck = turned(puck.position) + misjudged_;
   sight.puck_velocity = turned_velocity(puck.velocity);
   sight.radius = puck.half_extent.x();
+  sight.left_s = left_s(puck.id);
   return sight;
 }
 
@@ -183,8 +211,9 @@ std::optional<Chaser::Shot> Chaser::shot_at(const Sight& sight, const Span& span
   if (closing < least_closing) return std::nullopt;
   const double gain =
       (1.0 + rules_.restitution) * rules_.bat_mass / (rules_.bat_mass + rules_.puck_mass);
-  return Shot{value_of(puck, {puck_velocity.x() + gain * closing, puck_velocity.y()}, sight.radius),
-              push};
+  const Vector2 shot(puck_velocity.x() + gain * closing, puck_velocity.y());
+  if (is_too_late(sight, span, puck, shot.x())) return std::nullopt;
+  return Shot{value_of(puck, shot, sight.radius), push};
 }
 
 /// The value of a puck that leaves `place` at `velocity`: a goal counts most, then speed.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "game/physics/flight/motion.h"
 #include "game/players/steering.h"
@@ -25,7 +26,8 @@ inline constexpr Skill beginner_skill{5, 0.06, 0.7}, club_skill{2, 0.02, 1.0},
 /// (straight under drag, folded at the side walls), and picks the puck, the instant and the speed
 /// of the best shot that its acceleration allows. Without one it moves behind the nearest puck,
 /// around it if needed, so as not to push it to its own goal; if it can reach none it guards its
-/// goal.
+/// goal. Where pucks may stay in a half for some time only, it counts the time from when it saw
+/// one come, and sees no use in a shot that would not be over the line before.
 class Chaser : public Player {
  public:
   Chaser(const PlayerRules& rules, const PlayerSeat& seat, std::uint64_t seed, const Skill& skill);
@@ -47,6 +49,7 @@ class Chaser : public Player {
     Vector2 bat, bat_velocity;  ///< when the keys of this decision take effect
     Vector2 puck, puck_velocity;
     double radius = 0.0;
+    double left_s = 0.0;  ///< until the puck, which is in the own half, goes to the other side [s]
   };
   struct Shot {
     double value = 0.0;
@@ -69,6 +72,9 @@ class Chaser : public Player {
   Vector2 place_to_guard(const Sight& sight) const;
   bool is_within_reach(const Sight& sight) const;
   KeysHeld keys_for(const PlayerView& view);
+  void note_stays(const PlayerView& view, double instant);
+  double left_s(std::uint32_t puck) const;
+  bool is_too_late(const Sight& sight, const Span& span, const Vector2& place, double speed) const;
   KeysHeld keys_to(const Sight& sight, const Vector2& target) const;
 
   PlayerRules rules_;
@@ -84,6 +90,12 @@ class Chaser : public Player {
   std::uint32_t chased_ = 0;      ///< id of the puck that was chosen last
   bool is_chasing_ = false;
   Vector2 misjudged_{0.0, 0.0};
+  struct Stay {
+    std::uint32_t puck;
+    double since;
+  };
+  std::vector<Stay> stays_;  ///< in the own half, of pucks that were seen there last
+  double instant_ = 0.0;     ///< of this decision [s]
   std::uint32_t decisions_ = 0;
 };
 

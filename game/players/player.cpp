@@ -19,6 +19,7 @@ PlayerRules rules_of(const Scene& scene, std::uint32_t number) {
                     .puck_drag = scene.world.puck_drag,
                     .bat_drag = scene.world.bat_drag};
   rules.puck_friction = scene.world.puck_friction;
+  rules.possession_s = scene.rules.possession_s;
   if (scene.bodies.bats.empty()) return rules;
   assert(number < scene.bodies.bats.size());
   const Bat& bat = scene.bodies.bats[number];

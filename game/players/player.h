@@ -25,6 +25,7 @@ struct PlayerRules {
   double puck_mass = 0.1, bat_mass = 1.0;  ///< kg
   double restitution = 0.9;                ///< of a puck on a bat
   double puck_friction = 0.0;              ///< with the table [m/s^2]
+  double possession_s = 0.0;               ///< as MatchRules'
 };
 
 /// The rules of `scene` for the player of bat `number`, which must exist unless the scene has no

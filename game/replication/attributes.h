@@ -136,12 +136,13 @@ bool exchange(Stream& stream, MatchState& state) {
        wants = static_cast<std::uint8_t>(
            (state.wants_rematch[0] ? 1 : 0) | (state.wants_rematch[1] ? 2 : 0) |
            (state.is_unrecorded ? 4 : 0) | (state.takes_keys_alone ? 8 : 0));
-  auto winner = static_cast<std::uint8_t>(state.winner.value_or(Team::none));
+  auto winner = static_cast<std::uint8_t>(state.winner.value_or(Team::none)),
+       holder = static_cast<std::uint8_t>(state.holder.value_or(Team::none));
   const bool is_sound = stream.number(state.number) &&
                         stream.range(phase, static_cast<std::uint8_t>(MatchPhase::over)) &&
                         stream.range(wants, 15) && stream.range(winner, 2) &&
-                        stream.finite(state.until_s) && stream.finite(state.clock_real_s) &&
-                        stream.finite(state.clock_simulated_s);
+                        stream.range(holder, 2) && stream.finite(state.until_s) &&
+                        stream.finite(state.clock_real_s) && stream.finite(state.clock_simulated_s);
   if (!is_sound || !Stream::is_reading) return is_sound;
   state.phase = static_cast<MatchPhase>(phase);
   state.wants_rematch = {(wants & 1) != 0, (wants & 2) != 0};
@@ -149,6 +150,8 @@ bool exchange(Stream& stream, MatchState& state) {
   state.takes_keys_alone = (wants & 8) != 0;
   state.winner.reset();
   if (static_cast<Team>(winner) != Team::none) state.winner = static_cast<Team>(winner);
+  state.holder.reset();
+  if (static_cast<Team>(holder) != Team::none) state.holder = static_cast<Team>(holder);
   return true;
 }
 

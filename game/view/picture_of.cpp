@@ -114,6 +114,23 @@ void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
     headline(victory(name_of(sight, *sight.winner)), score, toned(colour_of(*sight.winner), 0.15f));
 }
 
+/// Whose time with the puck runs out, or has run out.
+void add_possession(const MatchSight& sight, std::vector<Text>& texts) {
+  if (sight.phase != Phase::playing || sight.scorer) return;
+  const auto line = [&](const std::string& words, game::Team team) {
+    texts.push_back(
+        {.words = words, .y = 0.2f, .size = 0.055f, .colour = toned(colour_of(team), 0.35f)});
+  };
+  if (sight.served) {
+    const std::string name = name_of(sight, *sight.served);
+    line("Time is up: " + (name == "You" ? "your puck" : "puck to " + name), *sight.served);
+  } else if (sight.holder) {
+    const std::string name = name_of(sight, *sight.holder),
+                      left = std::to_string(static_cast<int>(std::ceil(sight.possession_s)));
+    line((name == "You" ? "Shoot: " : name + " must shoot: ") + left, *sight.holder);
+  }
+}
+
 void add_link(const MatchSight& sight, const ViewChoice& choice, std::vector<Text>& texts) {
   float y = 0.035f;
   const auto line = [&](const char* words) {
@@ -232,6 +249,7 @@ Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewCh
   picture.dimming = is_stopped ? 0.55f : sight.phase == Phase::countdown ? 0.25f : 0.0f;
   add_names(sight, choice, picture.texts);
   add_headlines(sight, picture.texts);
+  add_possession(sight, picture.texts);
   if (!sight.notice.empty())
     picture.texts.push_back({.words = sight.notice, .y = 0.955f, .size = 0.032f, .colour = bright});
   if (choice.shows_link) add_link(sight, choice, picture.texts);

@@ -173,6 +173,53 @@ TEST(GoalsAmongPeers, EndTheGameWithTheWindowInWhichOneSideHasWon) {
   EXPECT_EQ(std::max(one.score().left, one.score().right), 4u);
 }
 
+/// As each peer plays a match: the whole of it, with pucks that go to the other side.
+TEST(GoalsAmongPeers, PeerThatPlaysTheWholeMovesPucksThatStayTooLongAsOneGameDoes) {
+  std::size_t served = 0, goals = 0;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Scene scene =
+        goal_mouths(seed, seed == 3 ? 1 : 12,
+                    "face_off_delay = 0.4371\nface_off_distance = 0.3\npossession_s = 0.6137");
+    const SharedGame game(scene, {});
+    const Shared shared = shared_by(1, game,
+                                    {.peer_count = 1,
+                                     .until = 10.0,
+                                     .window = seed == 2 ? 0.07 : 1.0 / 60.0,
+                                     .balance_windows = 0,
+                                     .is_replicated = false});
+    Game one(scene);
+    auto key = shared.parts[0].keys.begin();
+    for (const Notes::Window& window : shared.notes[0].windows) {
+      for (; key != shared.parts[0].keys.end() && key->time < window.time; ++key) one.submit(*key);
+      one.advance(window.time);
+      served += served_in(one).size(), goals += one.scored().size();
+      for (const auto& [body, state] : window.own)
+        ASSERT_EQ(peer::bytes_of(state),
+                  peer::bytes_of(physics::Subdomain::state_in(one.world(), body)))
+            << "at " << window.time << " s, body " << body;
+    }
+    for (; key != shared.parts[0].keys.end(); ++key) one.submit(*key);
+    one.advance(one.now());
+    EXPECT_EQ(shared.parts[0].hash, one.hash());
+    EXPECT_EQ(shared.parts[0].score, one.score());
+    EXPECT_FALSE(stays_in(one).empty());
+  }
+  EXPECT_GT(served, 100u);
+  EXPECT_GT(goals, 0u);
+}
+
+TEST(GoalsAmongPeers, PeersThatDivideAGameRefuseARuleThatTheyCannotKeep) {
+  const SharedGame game(goal_mouths(1, 10, "possession_s = 7.0"), {});
+  EXPECT_THROW(game.require_divisible(), SceneError);
+  peer::test::PostOffice office(1);
+  peer::test::ThreadMail mail(office, 0);
+  const std::vector<PeerInfo> peer_infos(1);
+  const Terms terms{.peer_count = 1, .until = 1.0, .window = 0.02, .is_replicated = true};
+  EXPECT_THROW(game.play(terms, peer_infos, 0, mail, {}), SceneError);
+  EXPECT_NO_THROW(SharedGame(goal_mouths(1, 10, ""), {}).require_divisible());
+}
+
 TEST(GoalsAmongPeers, NeedWindowsThatEndBeforeAPuckIsToComeBack) {
   const SharedGame game(goal_mouths(1, 10, "face_off_delay = 0.05"), {});
   EXPECT_NO_THROW(game.require_window(0.05));

@@ -17,7 +17,7 @@ using physics::Vector2;
 
 /// The match without goals: two bats, in one half each, one puck and two posts.
 Scene duel() {
-  std::string text = scene_text("match");
+  std::string text = scene_text("paper");
   const auto cut = [&](const std::string& from, const std::string& to) {
     const std::size_t begin = text.find(from);
     text.erase(begin, text.find(to, begin) - begin);

@@ -23,7 +23,7 @@ class PeersMatch : public PeerCommand {
   Process& play(const std::string& name, Words further) {
     const std::string file = (folder_ / name).string();
     further.insert(further.end(), {"--report", file + ".json", "--record", file + ".keys"});
-    return start(further, "match");
+    return start(further, played_);
   }
   Json report(const std::string& name) const {
     std::ifstream file(folder_ / (name + ".json"));
@@ -36,6 +36,7 @@ class PeersMatch : public PeerCommand {
     EXPECT_EQ(replay(log, recorded_scene(log, name)), log.hash.value_or(0));
     return log;
   }
+  std::string played_ = "match";
   bool are_over(const Process& one, const Process& two) { return ends(one, 60s) && ends(two, 60s); }
 };
 
@@ -61,6 +62,30 @@ TEST_F(PeersMatch, IsTheGameOfOneEngineInFewBytes) {
     EXPECT_LT(bytes_per_s(told), 2.0 * 530.0);
     EXPECT_GT(told.at("key_presses"), 4u);
   }
+}
+
+/// A puck may stay for half a second only, so it changes sides all the time.
+TEST_F(PeersMatch, MovesPucksThatStayTooLongForBothAlike) {
+  std::string text = scene_text("match");
+  const std::string seven = "possession_s = 7.0";
+  ASSERT_NE(text.find(seven), std::string::npos);
+  text.replace(text.find(seven), seven.size(), "possession_s = 0.5");
+  played_ = (folder_ / "hasty.toml").string();
+  std::ofstream(played_) << text;
+  const Process& one = first("8", {"--bots", "1", "--players", "chaser-beginner"});
+  const Process& two = second(one, {"--bots", "1", "--players", "chaser-beginner"});
+  ASSERT_TRUE(are_over(one, two)) << one.stderr_tail() << two.stderr_tail();
+  EXPECT_EQ(report("first").at("hash"), report("second").at("hash"));
+  const KeyLog log = record("first");
+  EXPECT_EQ(log, record("second"));
+  Game game(recorded_scene(log, "first"));
+  for (const InputEvent& event : log.events) game.submit(event);
+  std::size_t served = 0;
+  for (double now = 0.02; now < *log.until; now += 0.02) {
+    game.advance(now);
+    served += served_in(game).size();
+  }
+  EXPECT_GT(served, 5u);
 }
 
 /// Of bytes with all heads; both figures are printed. Bots of the same kind play.

@@ -252,6 +252,25 @@ TEST_F(GoldenImages, OfAGoal) {
   expect_golden("goal");
 }
 
+TEST_F(GoldenImages, OfTheLastSecondsOfAPossession) {
+  MatchSight sight = match_sight();
+  sight.own_team = game::Team::left;
+  sight.left_name = "You", sight.right_name = "Bot";
+  sight.holder = game::Team::left;
+  sight.possession_s = 2.4;
+  play(sight);
+  expect_golden("shoot");
+  sight.own_team.reset();
+  sight.left_name = "left", sight.right_name = "right";
+  play(sight, Settings());
+  expect_golden("shoot_split");
+  sight.holder.reset();
+  sight.served = game::Team::right;
+  play(sight);
+  application_->set_viewpoint(Viewpoint::above);
+  expect_golden("served");
+}
+
 TEST_F(GoldenImages, OfAPause) {
   play(match_sight());
   frame();
@@ -326,13 +345,13 @@ TEST_F(GoldenImages, OfOtherWindowsAndScales) {
 
 /// Nobody pressed a key, so the puck lies where it lay.
 TEST_F(GoldenImages, OfAReplay) {
-  const game::Scene scene = game::load_scene("match");
+  const game::Scene scene = game::load_scene("paper");
   game::Playing playing(scene, {game::Playing::hand, game::Playing::hand}, 1, 0.0);
   playing.advance(8.0);
   const test::TemporaryFolder folder("replay");
   const std::string file = (folder / "still.keys").string();
   game::write_key_log(
-      file, game::log_of(playing.game(), scene, game::scene_text("match"), playing.keys()));
+      file, game::log_of(playing.game(), scene, game::scene_text("paper"), playing.keys()));
   application_ = std::make_unique<Application>(
       Surroundings{.make_match =
                        [&](const MatchWish&) { return std::make_unique<game::ReplayMatch>(file); }},

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double frame = 1.0 / 60.0;
 
-Scene match_scene() { return load_scene(test::source_folder() + "/scenes/match.toml"); }
+Scene match_scene() { return load_scene(test::source_folder() + "/scenes/paper.toml"); }
 
 class LocalMatches : public ::testing::Test {
  protected:

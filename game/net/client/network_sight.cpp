@@ -62,9 +62,12 @@ void NetworkMatch::show_state(double now_s) {
            rink_->now() > state_.clock_simulated_s)
     sight_.phase = MatchPhase::playing;  // it is foreseen
   const bool is_counted = sight_.phase == MatchPhase::countdown || sight_.phase == MatchPhase::away;
-  sight_.remaining_s = is_counted && host_.clock().is_set()
-                           ? std::max(0.0, state_.until_s - host_.clock().arrival(now_s))
-                           : 0.0;
+  const double until_s =
+      host_.clock().is_set() ? std::max(0.0, state_.until_s - host_.clock().arrival(now_s)) : 0.0;
+  sight_.remaining_s = is_counted ? until_s : 0.0;
+  const bool is_ending = sight_.phase == MatchPhase::playing && state_.holder;
+  sight_.holder = is_ending ? state_.holder : std::nullopt;
+  sight_.possession_s = is_ending ? until_s : 0.0;
   const std::optional<std::uint32_t> own = player();
   if (!own || *own > 1) return;
   sight_.own_team = *own == 0 ? Team::left : Team::right;

@@ -36,6 +36,7 @@ PlayingPeer::PlayingPeer(const PlayingPeerSettings& settings, double (*now_s)())
     throw SceneError("scene '" + settings.scene + "' has no bats: expected one that can be played");
   if (game_.has_keys())
     throw SceneError("scene '" + settings.scene + "' has keys already, so no player can be live");
+  game_.require_divisible();
   if (settings.join.empty()) game_.require_window(settings.terms.window);
   Place place = listening_place(settings.listen, settings.join, true,
                                 {.listen = "--peer-listen", .join = "--peer"});

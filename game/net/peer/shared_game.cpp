@@ -140,6 +140,7 @@ double SharedGame::first_halo(double window) const {
 std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
   if (!has_goals(scene_)) return std::nullopt;
   const MatchRules& rules = scene_.rules;
+  static_assert(MatchRules::possession_min >= Game::placement_retry);
   const double shortest = std::min(rules.face_off_delay, Game::placement_retry);
   if (window > shortest)
     throw SceneError("scene '" + scene_.name + "' has pucks come back " + std::to_string(shortest) +
@@ -150,6 +151,7 @@ std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
   return peer::GoalRules{.goals_to_win = rules.goals_to_win,
                          .face_off_delay = rules.face_off_delay,
                          .placement_retry = Game::placement_retry,
+                         .possession = rules.possession_s,
                          .places = [field, from_end](bool is_left, double radius, std::size_t first,
                                                      std::size_t count) {
                            return places_for_disc(
@@ -157,6 +159,13 @@ std::optional<peer::GoalRules> SharedGame::goal_rules(double window) const {
                                {is_left ? from_end : field.length - from_end, field.width / 2},
                                radius, first, count);
                          }};
+}
+
+void SharedGame::require_divisible() const {
+  if (scene_.rules.possession_s > 0.0)
+    throw SceneError("scene '" + scene_.name +
+                     "' has possession_s, which only peers keep that play the whole of a match of "
+                     "two: expected none");
 }
 
 std::vector<peer::Key> SharedGame::thrusts() const {
@@ -188,6 +197,7 @@ std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> 
   StateHash hash = begun_game_hash(world, all, hands, {scoring.left, scoring.right});
   for (const peer::FaceOff& due : scoring.face_offs)
     hash.add(due.time), hash.add(std::uint64_t{due.puck});
+  add_stays(hash, scoring.halves.stays());
   return hash.value();
 }
 
@@ -258,6 +268,7 @@ std::vector<InputEvent> SharedGame::keys_with(std::span<const peer::Handover> lo
 PlayedPart SharedGame::play(const Terms& terms, std::span<const PeerInfo> peer_infos,
                             peer::PeerNumber number, peer::Mail& mail,
                             const PartOptions& part_options) const {
+  if (terms.peer_count > 1 || terms.is_replicated) require_divisible();
   peer::SessionSettings settings{.number = number,
                                  .peer_count = terms.peer_count,
                                  .halo = first_halo(terms.window),

@@ -127,6 +127,8 @@ class SharedGame {
 
   /// Throws SceneError if windows are too long [s] for pucks that come back after a goal.
   void require_window(double window) const { goal_rules(window); }
+  /// Throws SceneError for rules that only a peer keeps that plays the whole.
+  void require_divisible() const;
   /// The keys of all peers as a log from which one engine plays the same game; `scene_text` is the
   /// scene's file.
   KeyLog record_of(const PlayedPart& part, const std::string& scene_text) const;

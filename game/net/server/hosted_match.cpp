@@ -34,6 +34,7 @@ double HostedMatch::goal(double now_s, double played) const {
 }
 
 void HostedMatch::judge(const Game& game) {
+  ending_possession_ = ending_possession(game);
   if (led_ || !flow_.runs() || !game.is_over()) return;
   const MatchState& match = flow_.state();
   flow_.win(game.score().left > game.score().right ? Team::left : Team::right,
@@ -49,6 +50,10 @@ MatchState HostedMatch::state() const {
   MatchState state = present();
   state.is_unrecorded = is_unrecorded_;
   state.takes_keys_alone = led_.has_value();
+  if (ending_possession_ && state.phase == MatchPhase::playing) {
+    state.holder = ending_possession_->team;
+    state.until_s = state.clock_real_s + ending_possession_->until - state.clock_simulated_s;
+  }
   return state;
 }
 

@@ -50,7 +50,7 @@ class HostedMatch {
   double goal(double now_s, double played) const;
   /// At `now_s` the game has come no further than `played` [s]: it goes on from there.
   void fall_behind(double now_s, double played) { flow_.fall_behind(now_s, played); }
-  /// Ends the match if its game was won.
+  /// Ends the match if its game was won, and notes whose puck is about to go to the other side.
   void judge(const Game& game);
 
   /// Simulated time as players use it [s]; a countdown's end is predicted, so that keys that are
@@ -85,7 +85,8 @@ class HostedMatch {
   std::uint32_t number_ = 0;       ///< of the match that was begun last
   double earlier_s_ = 0.0;
   std::vector<KeyLog> finished_;
-  bool is_recorded_ = false;    ///< the present match
+  bool is_recorded_ = false;  ///< the present match
+  std::optional<EndingPossession> ending_possession_;
   bool is_unrecorded_ = false;  ///< the last match could not be recorded
 };
 

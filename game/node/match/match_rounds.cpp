@@ -2,6 +2,7 @@
 #include "game/node/match/match_rounds.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -61,6 +62,8 @@ std::uint64_t state_of(const peer::Session& session) {
   Fnv64 hash;
   hash.add_word(physics::hash_of(session.peer().share().subdomain()));
   hash.add_word(std::uint64_t{session.scoring().left} << 32 | session.scoring().right);
+  for (const physics::HalfStay& stay : session.scoring().halves.stays())
+    hash.add_word(std::bit_cast<std::uint64_t>(stay.until));
   return hash.value();
 }
 

@@ -33,7 +33,7 @@ void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
     std::uint32_t& scored = goal.is_left ? right : left;
     ++scored;
     is_over = rules.goals_to_win && scored >= *rules.goals_to_win;
-    if (is_over) face_offs.clear();
+    if (is_over) face_offs.clear(), halves = {};
     else schedule({goal.time + rules.face_off_delay, goal.puck, goal.is_left});
   }
   if constexpr (checks_whole_structures) check();
@@ -42,7 +42,8 @@ void Scoring::count(std::vector<Goal> goals, const GoalRules& rules) {
 double Scoring::next_after(double time) const {
   const auto due = std::find_if(face_offs.begin(), face_offs.end(),
                                 [time](const FaceOff& one) { return one.time > time; });
-  return due == face_offs.end() ? std::numeric_limits<double>::infinity() : due->time;
+  const double back = due == face_offs.end() ? std::numeric_limits<double>::infinity() : due->time;
+  return halves.next() > time ? std::min(back, halves.next()) : back;
 }
 
 void Scoring::schedule(const FaceOff& due) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "game/peer/messages.h"
+#include "game/physics/halves/halves.h"
 
 namespace rink::peer {
 
@@ -16,8 +17,12 @@ struct GoalRules {
   std::optional<std::uint32_t> goals_to_win;
   double face_off_delay = 1.0;   ///< s: from a goal until its puck is back
   double placement_retry = 0.1;  ///< s: until the next try if there is no free place
-  /// The places for a puck of that radius [m] that went into the left or the right goal: `count` of
-  /// a row that is equal at all peers, from the `first` on, the best ones first; fewer at its end.
+  /// How long a puck may stay in one half [s]; 0: as long as it likes. Otherwise each peer must
+  /// have the whole to itself.
+  double possession = 0.0;
+  /// The places for a puck of that radius [m] that the left or the right side is to have: `count`
+  /// of a row that is equal at all peers, from the `first` on, the best ones first; fewer at its
+  /// end.
   std::function<std::vector<Vector2>(bool is_left, double radius, std::size_t first,
                                      std::size_t count)>
       places;
@@ -34,15 +39,17 @@ struct Scoring {
   std::uint32_t left = 0, right = 0;  ///< goals scored by
   bool is_over = false;
   std::vector<FaceOff> face_offs;  ///< to come, by time, then puck
+  physics::Halves halves{};        ///< of pucks whose stays are limited, until it is over
 
   /// Counts goals, in any order, none before those of earlier calls.
   void count(std::vector<Goal> goals, const GoalRules& rules);
   void schedule(const FaceOff& due);
-  /// The time at which the next puck is due [s]; infinite if none is.
+  /// The time at which the next puck is due to come back [s]; infinite if none is.
   double next() const {
     return face_offs.empty() ? std::numeric_limits<double>::infinity() : face_offs.front().time;
   }
-  /// The first time after `time` at which a puck is due [s]; infinite if none is.
+  /// The first time after `time` at which a puck is due to come back, or to go to the other side
+  /// [s]; infinite if none is.
   double next_after(double time) const;
   /// Asserts that pucks are due in order of time, and none once all is over.
   void check() const;

@@ -21,6 +21,17 @@ Addressees all_but(PeerNumber own, std::vector<PeerNumber> members) {
   return {members, members};
 }
 
+/// Of pucks whose stays are limited.
+physics::Halves halves_at_start(const Whole& whole, const SessionSettings& settings,
+                                const physics::PartWorld& world) {
+  if (!settings.goals || settings.goals->possession == 0.0) return {};
+  assert(settings.peer_count == 1 && !settings.is_replicated);
+  physics::Halves halves(whole.spec.field.length / 2, settings.goals->possession);
+  for (std::uint32_t body = 0; body < whole.body_count; ++body)
+    if (whole.has_puck(body)) halves.follow(world, {body});
+  return halves;
+}
+
 }  // namespace
 
 Whole Whole::of(const Start& start) {
@@ -69,6 +80,7 @@ Session::Session(const Start& start, const Cuts& cuts, SessionSettings settings,
   for (const Key& key : settings_.keys) peer_->press_first(key);
   for (const Player& player : now_.players)
     for (const Seat& seat : settings_.seats_of(player)) peer_->players().seat(seat);
+  now_.scoring.halves = halves_at_start(whole_, settings_, peer_->world());
   peer_->begin(settings_.end_of(1));
   if (settings_.is_replicated) standby_.begin_own(peer_->part_log());
   if constexpr (checks_whole_structures) now_.check();
@@ -106,6 +118,7 @@ void Session::play_stretch() {
   inbox_.defer_faults(settings_.agrees_by_tree(now_.members.size()));
   announce();
   assert(now_.has(settings_.number));
+  follow(*peer_, now_.scoring.halves);
   State next = now_;
   double next_end = 0.0;
   const auto enter_next = [&] {
@@ -113,6 +126,7 @@ void Session::play_stretch() {
     next =
         agreement_.next(now_, peer_->verdicts(), peer_->share().roles(), peer_->now(), accusation);
     inbox_.give_up_accused(accusation);
+    if (!next.scoring.is_over) next.scoring.halves = peer_->share().halves();
     next_end = agreement_.stretch_end(next);
     if (next.zones == now_.zones) return;
     division_ = next.division();

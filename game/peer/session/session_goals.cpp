@@ -7,7 +7,8 @@
 
 namespace rink::peer {
 
-/// Puts back all pucks that are due at the end of the committed stretch.
+/// Puts back all pucks that are due at the end of the committed stretch, and then those whose time
+/// in one half is over before the other side, as Game does.
 void Session::face_off(State& next) {
   while (next.scoring.next() <= next.time) {
     const FaceOff due = next.scoring.face_offs.front();
@@ -15,6 +16,17 @@ void Session::face_off(State& next) {
     if (!put_back(due))
       next.scoring.schedule({due.time + settings_.goals->placement_retry, due.puck, due.is_left});
   }
+  physics::Halves& halves = next.scoring.halves;
+  if (!halves.are_kept()) return;
+  halves.look(peer_->world());
+  if (halves.next() > next.time) return;
+  for (const physics::HalfStay& stay : halves.stays()) {
+    if (stay.until > next.time) continue;
+    const bool is_to_left = stay.half == physics::Half::right;
+    if (put_back({next.time, stay.puck.index, is_to_left})) halves.restart(stay.puck);
+    else halves.prolong(stay.puck, stay.until + settings_.goals->placement_retry);
+  }
+  halves.look(peer_->world());
 }
 
 /// Each peer knows its own bodies, so a place is free if it is free at all peers. False if none is.

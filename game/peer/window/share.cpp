@@ -143,10 +143,13 @@ Settlement Share::put_back(const Handover::Body& scored, const Vector2& place, c
   for (std::vector<std::uint32_t>& known : known_) std::erase(known, body);
   if (!subdomain_.is_there(body)) subdomain_.put(body, scored.state);
   note_extent(scored.state), touch(body);
+  std::vector<std::uint32_t> changed;  // with who was in contact with one in play
+  if (world().is_in_play({body})) changed = subdomain_.group_of(body);
   subdomain_.place(body, place);
   Settlement settled;
   find_owner(body, place, Box::around(place, extent_of(body)), halos, settled);
   settled.came = settled.own;  // even if it was own before: its state is another
+  settled.came.insert(settled.came.end(), changed.begin(), changed.end());
   return settled;
 }
 
@@ -169,11 +172,17 @@ void Share::make_room(PeerNumber peer_count) {
 
 void Share::play(std::span<const Key> keys, double until) {
   assert(std::ranges::is_sorted(keys, {}, &Key::time));
+  halves_ = halves_before_;
+  const auto advance = [this](double to) {
+    if (halves_.are_kept()) subdomain_.advance(to, halves_);
+    else subdomain_.advance(to);
+  };
   for (const Key& key : keys) {
-    subdomain_.advance(std::max(key.time, world().now()));
+    advance(std::max(key.time, world().now()));
     subdomain_.set_thrust(key.bat, key.thrust);
+    halves_.look(world());
   }
-  subdomain_.advance(until);
+  advance(until);
 }
 
 void Share::check([[maybe_unused]] PeerNumber number) const {

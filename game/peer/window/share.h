@@ -81,7 +81,8 @@ class Share {
   /// Decides the owners from now on, the ghosts here, and the peers with ghosts of own bodies. Own
   /// bodies that are no candidates stay, and nobody has ghosts of them.
   Settlement settle(std::vector<std::uint32_t> candidates, const Halos& halos);
-  /// Puts a scored puck, with its owner's state, back in play at `place`, which touches nothing.
+  /// Puts a puck, with its owner's state, at `place`, which touches nothing: one that has scored,
+  /// or, of a share that is the whole, one in play.
   Settlement put_back(const Handover::Body& scored, const Vector2& place, const Halos& halos);
   /// `peer` gets these own bodies for this window, too; or will have all of these in the next one.
   void tell(PeerNumber peer, std::span<const std::uint32_t> bodies);
@@ -90,6 +91,10 @@ class Share {
 
   void begin_window() { subdomain_.begin_window(); }
   void undo() { subdomain_.undo(); }
+  /// Of a share that is the whole: follows the pucks' halves from what `halves` says of the
+  /// window's start; halves() then says it of its end.
+  void follow(const physics::Halves& halves) { halves_before_ = halves; }
+  const physics::Halves& halves() const { return halves_; }
   /// The keys, by time, take effect.
   void play(std::span<const Key> keys, double until);
 
@@ -122,6 +127,7 @@ class Share {
   std::vector<Reach> groups_;
   std::vector<std::uint32_t> touched_;
   bool notes_touched_ = false;
+  physics::Halves halves_before_, halves_;
   std::vector<std::vector<std::uint32_t>> known_, coming_;  ///< by peer
 };
 

@@ -197,11 +197,19 @@ void Engine::remove(std::uint32_t body) {
 }
 
 void Engine::place(std::uint32_t puck, const RealVector& position, const RealVector& velocity) {
-  [[maybe_unused]] const Body& b = bodies_[puck];
-  assert(b.kind == BodyKind::puck && (b.flags & Body::gone) == Body::out_of_play &&
-         position.allFinite() && velocity.allFinite());
+  const Body& b = bodies_[puck];
+  assert(b.kind == BodyKind::puck && !b.is(Body::removed) && position.allFinite() &&
+         velocity.allFinite());
   assert(is_free(present(), position, {RealVector(0.0, 0.0), b.radius}));
   bodies_.keep(puck);
+  if (!b.is(Body::gone)) {
+    rests_.free(puck, clock_.now);
+    ledger_.introduce(-energy_of(bodies_, puck));
+    bodies_.set_flags(puck, Body::out_of_play);
+    places_.remove(puck);
+    events_.drop(puck);
+    settle();
+  }
   bodies_.put(puck, position, velocity, clock_.now);
   bodies_.clear_flags(puck, Body::out_of_play);
   enter_mouth_if_inside(puck);
