@@ -108,7 +108,7 @@ def check_names(root):
 
 def check_walks(root):
     page = "docs/key-press.md"
-    walks = re.findall(r"^\| hop \|.*\n\|[-|]+\|\n((?:\|.*\n)+)", (root / page).read_text(), re.MULTILINE)
+    walks = re.findall(r"^\|hop\|.*\n\|[-|]+\|\n((?:\|.*\n)+)", (root / page).read_text(), re.MULTILINE)
     if len(walks) != 2:
         return [f"{page}: has {len(walks)} walks, not that of a key press and that of an update"]
     complaints = [f"{page}: a walk has {hops} hops, more than {HOPS_MAX}" for hops in map(len, map(str.splitlines, walks)) if hops > HOPS_MAX]
