@@ -40,8 +40,12 @@ bool exchange(Stream& stream, StampStepMessage& message) {
          stream.varint(message.tag);
 }
 
+/// Product and sum are rounded apart, also where a processor could do both at once: both ends must
+/// come to the same bits.
 inline double steps_on(const StampSteps& steps, std::uint64_t count) {
-  return count == 0 ? steps.time : steps.time + static_cast<double>(count) * steps.time_step;
+  if (count == 0) return steps.time;
+  const volatile double way = static_cast<double>(count) * steps.time_step;
+  return steps.time + way;
 }
 
 /// False if the message leads to no stamp.
