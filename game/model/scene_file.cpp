@@ -147,9 +147,11 @@ class SceneReader {
     if (table->whole("goals_to_win", goals, 1, 1'000'000))
       scene_.rules.goals_to_win = static_cast<std::uint32_t>(goals);
     table->number("face_off_delay", scene_.rules.face_off_delay, limit::delay);
-    table->number("face_off_distance", scene_.rules.face_off_distance, {0.0, 1.0, true});
     table->number("possession_s", scene_.rules.possession_s,
                   {MatchRules::possession_min, limit::time_max});
+    // A puck is served to the other half, whose spot must be in it.
+    const double farthest = scene_.rules.possession_s > 0.0 ? 0.49 : 1.0;
+    table->number("face_off_distance", scene_.rules.face_off_distance, {0.0, farthest, true});
     table->finish();
   }
 

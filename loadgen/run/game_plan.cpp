@@ -155,6 +155,11 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
     expect_bodies_for_a_server(experiment, game::count_of(scene.bodies));
     expect_no_keys_among_nodes(experiment, scene);
+    if (scene.rules.possession_s > 0.0 && (*std::ranges::max_element(experiment.nodes) > 1.0 ||
+                                           std::ranges::count(experiment.modes, peer_mode) > 0))
+      throw ExperimentError(
+          "experiment " + experiment.name + ": scene " + experiment.scene +
+          " has [match] possession_s, which peers and nodes that divide a game cannot keep");
     if (scene.world.field.goal_width > 0.0 &&
         std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) !=
             experiment.modes.end())

@@ -317,5 +317,15 @@ TEST(Possession, LimitThatCannotBeIsRefused) {
         << bad;
 }
 
+TEST(Possession, NeedsFaceOffSpotsWithinTheHalvesThatTheyAreOf) {
+  const auto scene = [](const std::string& distance, const std::string& possession) {
+    return small_scene("[match]\n" + possession + "face_off_distance = " + distance + "\n");
+  };
+  EXPECT_THAT(refusal_of([&] { scene("0.5", "possession_s = 7.0\n"); }),
+              HasSubstr("face_off_distance"));
+  EXPECT_EQ(scene("0.49", "possession_s = 7.0\n").rules.face_off_distance, 0.49);
+  EXPECT_EQ(scene("0.75", "").rules.face_off_distance, 0.75);
+}
+
 }  // namespace
 }  // namespace rink::game

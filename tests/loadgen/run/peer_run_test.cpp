@@ -15,6 +15,7 @@
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_run.h"
 #include "tests/loadgen/complaint.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace rink::loadgen {
@@ -250,6 +251,19 @@ TEST(PeerExperiment, RefusesWhatPeersDoNotDo) {
               HasSubstr("not snapshot"));
   EXPECT_THAT(peer_complaint("transport = \"virtual\"\nsweep_ticks = [0, 1]\n"),
               HasSubstr("expected sweep_ticks = 0"));
+}
+
+TEST_F(PeerRunTest, RefusesARuleOfPossessionBeforeAnythingRuns) {
+  std::ofstream(folder_ / "owned.toml")
+      << test::text_of(test::source_folder() + "/scenes/arena.toml")
+      << "\n[match]\npossession_s = 7.0\n";
+  experiment_.scene = (folder_ / "owned.toml").string();
+  try {
+    write_game_plan(experiment_, cells_of(experiment_).front(), folder_ / "log.keys");
+    FAIL() << "expected an ExperimentError";
+  } catch (const ExperimentError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("possession_s"));
+  }
 }
 
 TEST_F(PeerRunTest, RefusesAFieldWithGoalsBeforeAnythingRuns) {
