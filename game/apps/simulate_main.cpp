@@ -199,18 +199,24 @@ void require_room_for(std::uint32_t threads, const game::Scene& scene) {
 int measure_goals(const Options& options) {
   if (options.until == 0.0 || options.engine.engine != "exact")
     throw game::SceneError("--games: expected --until above 0 and --engine exact");
+  if (!options.states.empty() || !options.events.empty() || options.events_per_s || options.threads)
+    throw game::SceneError("--games: --states, --events, --budget and --threads are of one game");
   const game::Scene scene = scene_of(options);
   const game::GoalRatePlan plan{.players = options.players,
                                 .games = *options.games,
                                 .seconds = options.until,
-                                .seed = scene.seed};
+                                .seed = scene.seed,
+                                .is_interrupted = [] { return game::is_interrupted.load(); }};
+  hear_first_interrupt();
   std::ofstream summary = opened(options.summary);
+  const game::GoalRate rate = game::goal_rate(scene, plan);
   errno = 0;
-  (options.summary.empty() ? std::cout : summary)
-      << game::summary_of(scene, plan, game::goal_rate(scene, plan)) << '\n';
+  (options.summary.empty() ? std::cout : summary) << game::summary_of(scene, plan, rate) << '\n';
   require_written(std::cout.flush().good(), "the standard output");
   close(summary, options.summary);
-  return 0;
+  if (rate.games == plan.games) return 0;
+  game::complain("interrupted: the results are those of ", rate.games, " games");
+  return interrupted;
 }
 
 int simulate(const Options& options) {

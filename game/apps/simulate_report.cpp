@@ -105,7 +105,7 @@ std::string summary_of(const Scene& scene, const GoalRatePlan& plan, const GoalR
   return Json{{"schema", report_schema},
               {"scene", scene.name},
               {"players", plan.players},
-              {"games", plan.games},
+              {"games", rate.games},
               {"seconds", plan.seconds},
               {"goals_per_min", rate.left_per_min + rate.right_per_min},
               {"goals_per_min_error_95", rate.error_per_min},

@@ -51,21 +51,25 @@ Played played(const Scene& scene, const GoalRatePlan& plan, std::uint64_t seed) 
 
 GoalRate goal_rate(const Scene& scene, const GoalRatePlan& plan) {
   assert(plan.games > 0 && plan.seconds > 0.0);
-  const double minutes = plan.seconds / 60.0, games = plan.games;
+  const double minutes = plan.seconds / 60.0;
   GoalRate rate;
   StateHash hash;
   double sum = 0.0, squares = 0.0;
-  for (std::uint32_t k = 0; k < plan.games; ++k) {
-    const Played one = played(scene, plan, plan.seed + k);
-    rate.left_per_min += one.left / minutes / games;
-    rate.right_per_min += one.right / minutes / games;
-    rate.serves_per_min += static_cast<double>(one.serves) / minutes / games;
+  for (; rate.games < plan.games; ++rate.games) {
+    if (rate.games > 0 && plan.is_interrupted && plan.is_interrupted()) break;
+    const Played one = played(scene, plan, plan.seed + rate.games);
+    rate.left_per_min += one.left / minutes;
+    rate.right_per_min += one.right / minutes;
+    rate.serves_per_min += static_cast<double>(one.serves) / minutes;
     rate.longest_wait_s = std::max(rate.longest_wait_s, one.longest_wait_s);
     hash.add(one.hash);
     const double goals = (one.left + one.right) / minutes;
     sum += goals, squares += goals * goals;
   }
-  if (plan.games > 1)
+  const double games = rate.games;
+  for (double* const sum_of : {&rate.left_per_min, &rate.right_per_min, &rate.serves_per_min})
+    *sum_of /= games;
+  if (rate.games > 1)
     rate.error_per_min =
         1.96 * std::sqrt(std::max(0.0, squares - sum * sum / games) / (games - 1.0) / games);
   rate.hash = hash.value();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,11 @@ struct GoalRatePlan {
   std::uint32_t games = 1;
   double seconds = 60.0;
   std::uint64_t seed = 1;
+  std::function<bool()> is_interrupted{};  ///< asked before each game but the first, if there
 };
 
 struct GoalRate {
+  std::uint32_t games = 0;                         ///< that were played
   double left_per_min = 0.0, right_per_min = 0.0;  ///< goals that each side scored
   double error_per_min = 0.0;   ///< of both together: half of the 95 % interval of the mean
   double serves_per_min = 0.0;  ///< pucks that went to the other side as their time was over

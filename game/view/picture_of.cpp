@@ -126,7 +126,8 @@ void add_possession(const MatchSight& sight, std::vector<Text>& texts) {
     line("Time is up: " + (name == "You" ? "your puck" : "puck to " + name), *sight.served);
   } else if (sight.holder) {
     const std::string name = name_of(sight, *sight.holder),
-                      left = std::to_string(static_cast<int>(std::ceil(sight.possession_s)));
+                      left = std::to_string(
+                          std::clamp(static_cast<int>(std::ceil(sight.possession_s)), 1, 3));
     line((name == "You" ? "Shoot: " : name + " must shoot: ") + left, *sight.holder);
   }
 }
