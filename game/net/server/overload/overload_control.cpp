@@ -98,9 +98,9 @@ bool OverloadControl::share_out(double between_s, double telling_s) {
     divisor_most_ = std::min(step_below(divisor_), step_to(within_s / between_s));
     return change_to(divisor_most_);
   }
-  const std::uint32_t wanted =
-      std::min({step_to(divisor_ * telling_s / game_s),
-                step_to((within_s - divisor_ * telling_s) / game_s), divisor_most_});
+  const std::uint32_t wanted = std::min(
+      {step_to(divisor_ * telling_s / game_s), step_to((within_s - divisor_ * telling_s) / game_s),
+       telling_s > game_s ? divisor_max : divisor_most_});  // a bound that has aged
   return wanted > divisor_ && change_to(wanted);
 }
 
