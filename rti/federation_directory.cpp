@@ -226,8 +226,10 @@ void FederationDirectory::advance_clock(double now, bool is_behind) {
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     Connection& connection = connections_[id];
     if (!connection.is_connected || connection.execution != nullptr) continue;
-    if (connection.has_spoken) connection.last_received = now;
-    else if (is_behind) connection.last_received += passed_s;
+    const Timeouts& timeouts = settings_.federation.timeouts;
+    if (connection.has_spoken) connection.last_received = now, connection.excused_s = 0.0;
+    else if (is_behind && connection.excused_s < Timeouts::excuse_max * timeouts.lost_after_s)
+      connection.last_received += passed_s, connection.excused_s += passed_s;
     connection.has_spoken = false;
     if (now - connection.last_received > settings_.federation.timeouts.lost_after_s) drop(id);
   }

@@ -61,7 +61,7 @@ class FederationDirectory final : public CentralComponent {
     FederationExecution* execution = nullptr;  ///< null until it asks to join one
     std::vector<std::byte> waiting;            ///< bytes received before that which are no whole
                                                ///< frame
-    double since = 0.0, last_received = 0.0;
+    double since = 0.0, last_received = 0.0, excused_s = 0.0;
     PreJoinLimits limits;
   };
   struct Answer {

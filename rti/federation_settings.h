@@ -32,8 +32,9 @@ struct FederationSettings {
       512u << 10;  ///< to one federate: of objects that came into scope, and their states; less
                    ///< what it has not taken yet
   std::size_t newcomer_pairs_per_match_max =
-      1u << 18;  ///< pairs of a new subscription and an object that one match looks at; further
-                 ///< subscriptions wait for later ones
+      ~std::size_t{0};  ///< pairs of a new subscription and an object that one match looks at;
+                        ///< further subscriptions wait for later ones. Not for time-constrained
+                        ///< federates, who would miss messages until they are taken in
   std::uint32_t timed_max =
       1u
       << 20;  ///< messages in time-stamp order that wait for somebody, or can still be taken back

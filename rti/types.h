@@ -140,6 +140,8 @@ struct FederationExecutionInformation {
 struct Timeouts {
   double heartbeat_s = 1.0;   ///< period of a side's heartbeat when it has nothing else to send
   double lost_after_s = 5.0;  ///< a side that was silent for so long is lost
+  /// For so many times as long at most what waits unread excuses silence.
+  static constexpr double excuse_max = 4.0;
 };
 
 }  // namespace rink::rti

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -49,7 +50,10 @@ class Newcomers {
   /// At its end: for the regions that were new to the filter, which cover `area` [m^2] in all, it
   /// found `found` pairs.
   void end_match(double area, std::size_t found) {
-    if (area > 0.0) density_ = static_cast<double>(found) / area;
+    // Halved at most: a match of regions that found little, as one of the whole plane or before
+    // there are objects, must not let in all that wait.
+    if (const double seen = static_cast<double>(found) / area; area > 0.0 && seen > 0.0)
+      density_ = std::isinf(density_) ? seen : std::max(seen, 0.5 * density_);
     room_ = pairs_max_;
     is_fresh_ = true;
   }

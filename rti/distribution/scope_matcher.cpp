@@ -143,8 +143,10 @@ void ScopeMatcher::list_candidates(const DeclaredInterest& declared) {
       candidates_.insert_all(parts_.objects.of_class(each));
   if (declared.regionals.empty()) return;
   const auto is_unplaced = [](const Regional& each) { return !each.is_placed; };
-  if (regions.has_several() || std::ranges::any_of(declared.regionals, is_unplaced) ||
-      parts_.facts.role_of(declared.federate).owner != im::Role::none) {
+  if (parts_.facts.role_of(declared.federate).owner != im::Role::none)
+    for (ObjectSlot slot = 0; slot < count; ++slot)
+      if (parts_.facts.is_own(declared.federate, slot)) candidates_.insert(slot);
+  if (regions.has_several() || std::ranges::any_of(declared.regionals, is_unplaced)) {
     for (ObjectSlot slot = 0; slot < count; ++slot) candidates_.insert(slot);
     return;
   }
@@ -162,10 +164,9 @@ void ScopeMatcher::reconsider_all(const DeclaredInterest& declared) {
   FederateInterest& interest = parts_.scopes.of(declared.federate);
   std::vector<AttributeSet> by_class, by_object;
   const bool is_uniform = uniform_classes(declared, by_class);
-  if (!is_uniform)
-    by_object.resize(parts_.objects.slot_count());  // else four bytes per object of the world would
-                                                    // come and go with every client, and leave
-                                                    // holes in the heap
+  // Else four bytes per object of the world would come and go with every client, and leave holes
+  // in the heap.
+  if (!is_uniform) by_object.resize(parts_.objects.slot_count());
   list_candidates(declared);
   candidates_.for_each([&](ObjectSlot slot) {
     const AttributeSet is = wanted(declared, slot);

@@ -43,18 +43,21 @@ void Connections::forget_words(ConnectionId id) {
 }
 
 /// However late it is called, the time since then counts as `lost_after_s` at most, and not at all
-/// where not all could be read: what was sent meanwhile waits in the sockets, and a federate is
-/// lost by its own silence alone.
+/// where not all could be read, which excuses a while: what was sent meanwhile waits in the
+/// sockets, and a federate is lost by its own silence alone.
 void Connections::advance_clock(bool is_behind) {
   const double lost_after_s = basis_.settings.timeouts.lost_after_s;
   const double passed_s = basis_.now - advanced_s_.value_or(basis_.now),
-               unseen_s = is_behind ? passed_s : std::max(0.0, passed_s - lost_after_s);
+               unseen_s = std::max(0.0, passed_s - lost_after_s),
+               excuse_max_s = Timeouts::excuse_max * lost_after_s;
   advanced_s_ = basis_.now;
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     FederationConnection& connection = connections_[id];
     if (connection.phase == Phase::unknown) continue;
-    if (connection.has_spoken) connection.last_received = basis_.now;
-    else connection.last_received += unseen_s;
+    const bool is_excused = is_behind && connection.excused_s < excuse_max_s;
+    if (connection.has_spoken) connection.last_received = basis_.now, connection.excused_s = 0.0;
+    else connection.last_received += is_excused ? passed_s : unseen_s;
+    if (is_excused) connection.excused_s += passed_s;
     connection.has_spoken = false;
     if (basis_.now - connection.last_received > lost_after_s)
       expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));

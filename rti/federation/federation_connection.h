@@ -19,6 +19,7 @@ struct FederationConnection {
   bool has_spoken = false;     ///< since the last `advance_clock`
   PreJoinLimits limits;
   double since = 0.0, last_received = 0.0;
+  double excused_s = 0.0;  ///< of its silence, while not all could be read
   FrameReader reader;
 };
 

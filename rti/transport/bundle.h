@@ -51,8 +51,8 @@ class BundledTransport final : public Transport, private TransportListener {
   void poll(std::chrono::nanoseconds longest_wait, TransportListener& listener) override;
   void send(ConnectionId connection, std::span<const Bytes> parts) override;
   void close(ConnectionId connection) override;
-  /// The connection's part of its trunk's.
   bool is_behind() const override { return carrier_.is_behind(); }
+  /// The connection's part of its trunk's.
   std::size_t queued_bytes(ConnectionId connection) const override;
   /// Of the connection's own payload, without the records' headers; the kernel knows trunks only.
   TransportCounters counters(ConnectionId connection) const override;

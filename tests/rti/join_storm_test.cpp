@@ -214,7 +214,7 @@ TEST(JoinStorm, OfTwoThousandTakesNoTurnFromAHundredWhoPlayAndEndsWithEveryViewR
 /// What fits into one match comes as if there were no portions.
 TEST(JoinStorm, ThatIsSmallIsOverInOneMatch) {
   constexpr std::size_t vessels = 1000;
-  Storm storm(storm_with_room_for(FederationSettings{}.newcomer_pairs_per_match_max), vessels);
+  Storm storm(storm_with_room_for(1u << 18), vessels);
   for (int k = 0; k < 100; ++k) storm.join();
   storm.tick();
   std::uint64_t visible = 0;

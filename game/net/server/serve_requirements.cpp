@@ -146,6 +146,9 @@ rti::FederationSettings federation_of(const ServeOptions& options, const Scene& 
                                       const std::string& federation, im::Worker* worker) {
   rti::FederationSettings settings = federation_settings(scene, options.scheme, options.cell_size);
   settings.match_worker = worker;
+  // Clients that wait for logical time would miss what is sent before they are taken in.
+  if (options.pace == "synchronous" || options.is_time_managed)
+    settings.newcomer_pairs_per_match_max = rti::FederationSettings{}.newcomer_pairs_per_match_max;
   settings.update_rate = update_rate_of(options.output_rate_hz, options.rate_hz);
   settings.federation = federation;
   settings.members = options.members;

@@ -19,6 +19,9 @@
 namespace rink::game {
 namespace {
 
+/// Of new subscriptions and objects that a match looks at: some 10 ms of one core.
+constexpr std::size_t newcomer_pairs_max = 1u << 18;
+
 std::chrono::nanoseconds nanoseconds(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
@@ -132,6 +135,7 @@ rti::FederationSettings federation_settings(const Scene& scene, const std::strin
   settings.filter = scheme;
   settings.filter_settings = filter_settings(scene, cell_size);
   settings.filter_settings.plugins = loaded_plugins();
+  settings.newcomer_pairs_per_match_max = newcomer_pairs_max;
   return settings;
 }
 

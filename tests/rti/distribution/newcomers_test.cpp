@@ -49,6 +49,10 @@ TEST(Newcomers, AreExpectedToSeeWhatThoseBeforeThemSaw) {
   EXPECT_EQ(newcomers.expected(1e300, 500), 500u);
   newcomers.end_match(0.0, 0);
   EXPECT_EQ(newcomers.expected(4.0, 500), 201u) << "a match without newcomers shows nothing";
+  newcomers.end_match(1e300, 1);
+  EXPECT_EQ(newcomers.expected(4.0, 500), 101u) << "halved, however wide a region looks";
+  newcomers.end_match(8.0, 0);
+  EXPECT_EQ(newcomers.expected(4.0, 500), 101u) << "a view of nothing shows nothing";
 }
 
 /// Parts whose matches have room for one pair.
