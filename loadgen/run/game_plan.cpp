@@ -54,6 +54,17 @@ void expect_no_keys_among_nodes(const Experiment& experiment, const game::Scene&
                         "without, such as arena");
 }
 
+void expect_possession_to_be_kept(const Experiment& experiment, const game::Scene& scene) {
+  if (scene.rules.possession_s == 0.0 ||
+      (*std::ranges::max_element(experiment.nodes) == 1.0 &&
+       std::ranges::count(experiment.modes, peer_mode) == 0 &&
+       std::ranges::count(experiment.policies, game::exact_policy) == 0))
+    return;
+  throw ExperimentError("experiment " + experiment.name + ": scene " + experiment.scene +
+                        " has [match] possession_s, which peers and nodes that divide a game and "
+                        "clients of the policy exact do not compute");
+}
+
 /// Refuses what the agents of a trace cannot do, before cells run that would fail or be cut short.
 void expect_what_traces_can(const Experiment& experiment, const Cell& of_game,
                             const PlayedScene& played) {
@@ -155,11 +166,7 @@ void write_game_plan(const Experiment& experiment, const Cell& cell,
     expect_bats_for_all(experiment, cell, scene.bodies.bats.size());
     expect_bodies_for_a_server(experiment, game::count_of(scene.bodies));
     expect_no_keys_among_nodes(experiment, scene);
-    if (scene.rules.possession_s > 0.0 && (*std::ranges::max_element(experiment.nodes) > 1.0 ||
-                                           std::ranges::count(experiment.modes, peer_mode) > 0))
-      throw ExperimentError(
-          "experiment " + experiment.name + ": scene " + experiment.scene +
-          " has [match] possession_s, which peers and nodes that divide a game cannot keep");
+    expect_possession_to_be_kept(experiment, scene);
     if (scene.world.field.goal_width > 0.0 &&
         std::find(experiment.modes.begin(), experiment.modes.end(), peer_mode) !=
             experiment.modes.end())

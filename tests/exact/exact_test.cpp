@@ -114,21 +114,6 @@ TEST(Exact, PucksThatScoreAndAreFacedOffStayExact) {
   EXPECT_GT(rink.server().game().world().counters().goals, 20u);
 }
 
-TEST(Exact, PucksThatGoToTheOtherSideStayExact) {
-  Scene scene = small_crowd();
-  scene.rules.possession_s = 0.7;
-  LockstepRink rink(scene, settings_for(scene, 9, 8.0, 0.4));
-  rink.start();
-  Compared compared;
-  std::size_t served = 0;
-  for (int tick = 0; tick < 200 && !HasFatalFailure(); ++tick) {
-    follow(rink, 1, "serves", compared);
-    served += served_in(rink.server().game()).size();
-  }
-  EXPECT_GT(served, 20u);
-  EXPECT_EQ(counted(rink).wrong_hashes, 0u);
-}
-
 /// Bats without bounce that press pucks and each other against walls: rest contacts, pushed rows,
 /// jams.
 TEST(Exact, RestContactsAndPilesStayExactThoughSomeKnowHalfOfThem) {

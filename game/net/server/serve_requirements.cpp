@@ -83,8 +83,11 @@ void require_node(const ServeOptions& options) {
 }
 
 /// Throws if other options ask for what clients that compute do not follow.
-void require_exact(const ServeOptions& options) {
+void require_exact(const ServeOptions& options, const Scene& scene) {
   if (options.policy != exact_policy) return;
+  if (scene.rules.possession_s > 0.0)
+    throw std::runtime_error("--policy exact: scene '" + options.scene +
+                             "' has [match] possession_s, which clients do not compute");
   if (!options.hosted.empty() || is_node(options) || options.pace != "realtime" ||
       options.is_time_managed)
     throw std::runtime_error(
@@ -173,7 +176,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   require_always(options);
   require_beginning(options);
   require_node(options);
-  require_exact(options);
+  require_exact(options, scene);
   require_output_rate(options);
   if (options.spread > 0.0 && (options.pace != "realtime" || options.transport == "udp"))
     throw std::runtime_error(

@@ -49,7 +49,6 @@ void TickEvents::look(const Game& game) {
   for (const EntityId each : game.network_grid().left_off()) left_off_.push_back(each.index);
   for (const ScoredGoal& goal : game.scored())  // it may be back within the tick
     if (game.world().is_in_play(goal.puck)) was_out_of_play_[goal.puck.index] = 1;
-  for (const ServedPuck& served : served_in(game)) was_out_of_play_[served.puck.index] = 1;
 }
 
 void TickEvents::list_drive_changes() {
