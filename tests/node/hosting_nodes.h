@@ -37,9 +37,9 @@ inline double now_s() {
          std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The shipped match with wider goals: without keys the first falls within two seconds.
+/// The match at the paper's pace with wider goals: without keys the first falls within two seconds.
 inline Scene scene_of_two(const std::string& goals_to_win) {
-  const std::string name = rink::test::source_folder() + "/scenes/match.toml";
+  const std::string name = rink::test::source_folder() + "/scenes/paper.toml";
   std::ifstream file(name);
   std::string text{std::istreambuf_iterator<char>(file), {}};
   const auto replace = [&text](const std::string& old, const std::string& by) {

@@ -44,7 +44,7 @@ class MatchesAtNodes : public PeerCommand {
   /// Two nodes that host matches to so many goals, of which the first falls within 2 s.
   void host(const std::string& goals, Words first = {}) {
     const std::string scene = (folder_ / "duel.toml").string();
-    std::ifstream file(test::source_folder() + "/scenes/match.toml");
+    std::ifstream file(test::source_folder() + "/scenes/paper.toml");
     std::string text{std::istreambuf_iterator<char>(file), {}};
     text.replace(text.find("goals_to_win = 5"), 16, "goals_to_win = " + goals);
     text.replace(text.find("goal_width = 0.4"), 16, "goal_width = 1.0");

@@ -233,7 +233,7 @@ constexpr bool has_asserts = false;
 constexpr bool has_asserts = true;
 #endif
 
-TEST(PlacingDeathTest, NamesWhatIsNotFreeOrNotOutOfPlay) {
+TEST(PlacingDeathTest, NamesWhatIsNotFreeOrNoLongerThere) {
   if (!has_asserts) GTEST_SKIP() << "asserts are off in this build";
   const auto place = [](const Vector2& position, const Vector2& velocity) {
     AfterAGoal scene(field_with_goals());
@@ -246,7 +246,12 @@ TEST(PlacingDeathTest, NamesWhatIsNotFreeOrNotOutOfPlay) {
   EXPECT_DEATH(place({0.03, 1.0}, still), "is_free");  // in the mouth of a goal
   EXPECT_DEATH(place(nowhere, still), "allFinite");
   EXPECT_DEATH(place({1.0, 1.0}, nowhere), "allFinite");
-  EXPECT_DEATH(place({1.0, 1.0}, still).world.place({0}, {1.5, 1.0}, still), "out_of_play");
+  const auto place_removed = [&] {
+    AfterAGoal scene = place({1.0, 1.0}, still);
+    scene.world.remove(scene.puck);
+    scene.world.place(scene.puck, {1.5, 1.0}, still);
+  };
+  EXPECT_DEATH(place_removed(), "removed|contains|is_there");
   EXPECT_DEATH(World(rink_of(4, 2)).add(PuckSpec{.position = {0.03, 1.0}}), "is_free");
   EXPECT_DEATH(World(rink_of(4, 2)).add(PuckSpec{.position = {1, 1}, .mass = 0.0}), "mass");
 }
