@@ -1,8 +1,6 @@
 // Who has the shared key is let in, both ways; nobody else gets a byte more than they sent.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <random>
 
 #include "rti/admission/handshake.h"
@@ -11,7 +9,6 @@
 #include "rti/wire/message.h"
 #include "tests/rti/rig.h"
 #include "tests/rti/seeded.h"
-#include "tests/temporary_folder.h"
 
 namespace rink::rti::testing {
 namespace {
@@ -211,47 +208,6 @@ TEST(Admission, RandomBytesGetNoMoreThanTheyAre) {
     EXPECT_NE(rti.receive(left), State::proven);
     EXPECT_LE(rti.outgoing().size(), bytes.size());
   }
-}
-
-std::string fault_of(const std::filesystem::path& file) {
-  try {
-    SharedKey::load(file);
-  } catch (const std::runtime_error& fault) {
-    return fault.what();
-  }
-  return "";
-}
-
-TEST(Admission, KeyFilesAreReadWithoutTheirLastLineEndAndRefusedIfShortOrOpenToOthers) {
-  const test::TemporaryFolder folder("key");
-  const std::filesystem::path file = folder / "harbour.key";
-  std::ofstream(file) << "the harbour's own secret\n";
-  using std::filesystem::perms;
-  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
-  const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
-  EXPECT_EQ(SharedKey::load(file).prove(Role::rti, basis), ours().prove(Role::rti, basis));
-  for (const perms others :
-       {perms::group_read, perms::group_write, perms::others_read, perms::others_write}) {
-    std::filesystem::permissions(file, perms::owner_read | perms::owner_write | others);
-    EXPECT_EQ(fault_of(file),
-              file.string() + ": others may read or write this key; chmod 600 " + file.string());
-  }
-  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
-  std::ofstream(file) << "short\n";
-  EXPECT_THROW(SharedKey::load(file), std::runtime_error);
-  std::filesystem::remove(file);
-  EXPECT_THROW(SharedKey::load(file), std::runtime_error);
-}
-
-TEST(Admission, EachDirectionOfEachConversationHasAKeyOfItsOwn) {
-  const ProofBasis basis{nonce_of(1), nonce_of(2), "rink"};
-  const SessionKey up = ours().session_key(Role::federate, basis),
-                   down = ours().session_key(Role::rti, basis);
-  EXPECT_NE(up, down);
-  EXPECT_NE(up, ours().session_key(Role::federate, {nonce_of(3), nonce_of(2), "rink"}));
-  EXPECT_NE(up, ours().session_key(Role::federate, {nonce_of(1), nonce_of(3), "rink"}));
-  EXPECT_NE(up, another().session_key(Role::federate, basis));
-  EXPECT_NE(up, ours().prove(Role::federate, basis)) << "which anybody may hear";
 }
 
 /// Somebody on the way, who hears all and alters one bit of what comes down.
