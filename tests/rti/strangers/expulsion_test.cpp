@@ -180,22 +180,30 @@ TEST(Expulsion, AStallIsNotTheOthersSilence) {
 }
 
 /// A process with more to read than it manages has not heard all that was said.
-TEST(Expulsion, WhatWaitsUnreadIsNotSilence) {
-  Recorder heard;
-  Ambassador busy(harbour(), heard);
-  busy.join("rink", "busy", "tester");
-  for (double now = 100.0; now < 130.0; now += 0.25) busy.advance_clock(now, true);
+TEST(Expulsion, WhatWaitsUnreadIsNotSilenceForAWhile) {
+  Recorder heard, flooded_heard;
+  Ambassador busy(harbour(), heard), flooded(harbour(), flooded_heard);
+  busy.join("rink", "busy", "tester"), flooded.join("rink", "flooded", "tester");
+  for (double now = 100.0; now < 118.0; now += 0.25) busy.advance_clock(now, true);
   EXPECT_EQ(heard.lost, "");
-  for (double now = 130.0; now < 135.5; now += 0.25) busy.advance_clock(now);
+  for (double now = 118.0; now < 123.5; now += 0.25) busy.advance_clock(now);
   EXPECT_NE(heard.lost, "") << "who has read all knows";
+  for (double now = 100.0; now < 124.0; now += 0.25) flooded.advance_clock(now, true);
+  EXPECT_EQ(flooded_heard.lost, "");
+  for (double now = 124.0; now < 127.0; now += 0.25) flooded.advance_clock(now, true);
+  EXPECT_NE(flooded_heard.lost, "") << "others that send without pause are no excuse for ever";
 
-  Bare bare;
-  bare.enter(1, "unread");
-  bare.execution.advance_clock(1.0);
-  for (double now = 2.0; now < 30.0; now += 1.0) bare.execution.advance_clock(now, true);
+  Bare bare, besieged;
+  bare.enter(1, "unread"), besieged.enter(1, "mute");
+  bare.execution.advance_clock(1.0), besieged.execution.advance_clock(1.0);
+  for (double now = 2.0; now < 18.0; now += 1.0) bare.execution.advance_clock(now, true);
   EXPECT_EQ(bare.execution.federate_count(), 2u);
-  for (double now = 30.0; now < 37.0; now += 1.0) bare.execution.advance_clock(now);
+  for (double now = 18.0; now < 25.0; now += 1.0) bare.execution.advance_clock(now);
   EXPECT_EQ(bare.execution.federate_count(), 0u);
+  for (double now = 2.0; now < 24.0; now += 1.0) besieged.execution.advance_clock(now, true);
+  EXPECT_EQ(besieged.execution.federate_count(), 2u);
+  for (double now = 24.0; now < 30.0; now += 1.0) besieged.execution.advance_clock(now, true);
+  EXPECT_EQ(besieged.execution.federate_count(), 0u);
 }
 
 }  // namespace
