@@ -100,9 +100,9 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
                                          std::span<const std::uint32_t> moved_subscribers) {
   assert(moved_entities.size() <= entities.size() &&
          moved_subscribers.size() <= subscribers.size());
-  assert(!checks_whole_structures ||
-         (std::is_sorted(moved_entities.begin(), moved_entities.end()) &&
-          std::is_sorted(moved_subscribers.begin(), moved_subscribers.end())));
+  if constexpr (checks_whole_structures)
+    assert(std::is_sorted(moved_entities.begin(), moved_entities.end()) &&
+           std::is_sorted(moved_subscribers.begin(), moved_subscribers.end()));
   changes_.clear();
   const std::size_t moved = moved_entities.size() + moved_subscribers.size();
   if (moved == 0) return {};

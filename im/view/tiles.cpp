@@ -46,7 +46,8 @@ class TileDistance {
   }
   std::size_t index(int columns, int rows) const {
     assert(std::abs(columns) <= steps_ && std::abs(rows) <= steps_);
-    return static_cast<std::size_t>((rows + steps_) * (2 * steps_ + 1) + columns + steps_);
+    const std::ptrdiff_t from = steps_, row = from + rows, column = from + columns;
+    return static_cast<std::size_t>(row * (2 * from + 1) + column);
   }
 
   /// Those of tiles that somebody looks from are kept, 16 MiB of them; none are needed where no

@@ -119,8 +119,8 @@ void UpdateRuns::clear() {
     run.residuals.clear();
   }
   size_ = 0;
-  assert(!checks_whole_structures ||
-         std::ranges::all_of(last_run_, [](std::uint32_t run) { return run == 0; }));
+  if constexpr (checks_whole_structures)
+    assert(std::ranges::all_of(last_run_, [](std::uint32_t run) { return run == 0; }));
 }
 
 }  // namespace rink::rti

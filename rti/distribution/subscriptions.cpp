@@ -52,8 +52,8 @@ bool Subscriptions::is_a(std::uint16_t interaction_class, std::uint16_t supercla
 }
 
 void Subscriptions::expand(ClassInterest& interest) const {
-  for (std::uint16_t i = 0; i < interest.declared.size(); ++i)
-    interest.expanded[i] = inherited(interest, i);
+  for (std::size_t i = 0; i < interest.declared.size(); ++i)
+    interest.expanded[i] = inherited(interest, static_cast<std::uint16_t>(i));
 }
 
 AttributeSet Subscriptions::inherited(const ClassInterest& interest,
@@ -110,8 +110,9 @@ std::size_t Subscriptions::pairs_looked_at(const DeclaredInterest& interest) con
 /// Of the class and its subclasses.
 std::size_t Subscriptions::object_count(std::uint16_t object_class) const {
   std::size_t count = 0;
-  for (std::uint16_t each = 0; each < fom_.object_classes().size(); ++each)
-    if (fom_.is_a(ObjectClassHandle{each}, ObjectClassHandle{object_class}))
+  for (std::size_t i = 0; i < fom_.object_classes().size(); ++i)
+    if (const auto each = static_cast<std::uint16_t>(i);
+        fom_.is_a(ObjectClassHandle{each}, ObjectClassHandle{object_class}))
       count += regions_.objects().count_of_class(each);
   return count;
 }
@@ -125,16 +126,16 @@ std::size_t Subscriptions::pairs_of(const Regional& regional) const {
 
 std::size_t Subscriptions::pairs_of(const DeclaredInterest& interest) const {
   std::size_t pairs = pairs_looked_at(interest);
-  for (std::uint16_t each = 0; each < interest.everywhere.declared.size(); ++each)
+  for (std::size_t each = 0; each < interest.everywhere.declared.size(); ++each)
     if (!interest.everywhere.expanded[each].includes(interest.everywhere.declared[each]))
-      pairs += object_count(each);
+      pairs += object_count(static_cast<std::uint16_t>(each));
   for (const Regional& each : interest.regionals)
     if (!each.is_passed || !is_expanded(each.classes)) pairs += pairs_of(each);
   return pairs;
 }
 
 bool Subscriptions::is_expanded(const ClassInterest& interest) const {
-  for (std::uint16_t each = 0; each < interest.declared.size(); ++each)
+  for (std::size_t each = 0; each < interest.declared.size(); ++each)
     if (!interest.expanded[each].includes(interest.declared[each])) return false;
   return true;
 }

@@ -33,7 +33,8 @@ std::span<const std::uint32_t> MemberLists::receivers(std::uint32_t group, std::
   if (self == members.end()) return members;
   others_.assign(members.begin(), self);
   others_.insert(others_.end(), self + 1, members.end());
-  assert(!checks_whole_structures || std::ranges::find(others_, sender) == others_.end());
+  if constexpr (checks_whole_structures)
+    assert(std::ranges::find(others_, sender) == others_.end());
   return others_;
 }
 

@@ -183,14 +183,13 @@ std::vector<peer::Key> SharedGame::thrusts() const {
 std::uint64_t SharedGame::hash(std::uint64_t world, std::span<const InputEvent> keys, double until,
                                const peer::Scoring& scoring) const {
   std::vector<BatController> players;
-  std::vector<const BatController*> hands;
   for (std::uint32_t k = 0; k < start_.player_count(); ++k)
     players.push_back(controller_of(scene_, k));
   for (const InputEvent& event : keys)
     if (event.time <= until)
       players[event.player].press(event.key, event.kind == InputKind::key_down);
-  hands.reserve(players.size());
-  for (const BatController& player : players) hands.push_back(&player);
+  std::vector<const BatController*> hands(players.size());
+  std::ranges::transform(players, hands.begin(), [](const BatController& each) { return &each; });
   std::vector<Entity> all(start_.entities().begin(), start_.entities().end());
   for (auto number = static_cast<std::uint32_t>(all.size()); number < forgotten_; ++number)
     all.push_back({.id = {number}, .player = std::nullopt});

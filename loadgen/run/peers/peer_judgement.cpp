@@ -38,7 +38,7 @@ game::BotsTrace bots_trace_of(const game::ServerTrace& server) {
 }
 
 void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,
-                 PeersFindings findings) {
+                 PeersFindings&& findings) {
   auto& [totals, measured, server, bots] = findings;
   const nlohmann::ordered_json peers = peers_report(record.cell, totals),
                                players = players_report(record.cell, totals, measured);

@@ -31,6 +31,6 @@ struct PeersFindings {
 /// Writes NAME.peers.json, NAME.bots.json and, where truth is wanted, both kinds of traces; and
 /// evaluates the run by them.
 void judge_peers(const RunnerSettings& settings, const Experiment& experiment, RunRecord& record,
-                 PeersFindings findings);
+                 PeersFindings&& findings);
 
 }  // namespace rink::loadgen
