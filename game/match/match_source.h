@@ -67,7 +67,7 @@ struct MatchSight {
   std::optional<Team>
       holder{};               ///< on whose side the puck is in the last seconds of its time there
   double possession_s = 0.0;  ///< until it goes to the other side [s]
-  std::optional<Team> served{};  ///< to whom it went so, for a while
+  std::optional<Team> served{};  ///< the side that such a puck was just served to
   std::optional<Team> winner;
   std::optional<Team> own_team;  ///< of the player of this window, if it is one's own: the field is
                                  ///< seen from that end

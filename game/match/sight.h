@@ -55,8 +55,8 @@ class ServeWatch {
   double ending_real_s_ = 0.0, served_real_s_ = 0.0;
 };
 
-/// Keeps the last scorer and the time since the goal, until the puck is in play again, and to whom
-/// a puck went as its time in one half was over.
+/// Keeps the last scorer and the time since the goal until the puck is in play again. Keeps also
+/// the side to which a puck was served when its time in one half was over.
 class GoalWatch {
  public:
   /// Fills in `scorer`, `since_goal_s` and `served` from score, time and phase of the `sight` of

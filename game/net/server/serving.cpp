@@ -19,7 +19,7 @@
 namespace rink::game {
 namespace {
 
-/// Of new subscriptions and objects that a match looks at: some 10 ms of one core.
+/// Pairs of a new subscription and an object that one match looks at.
 constexpr std::size_t newcomer_pairs_max = 1u << 18;
 
 std::chrono::nanoseconds nanoseconds(double seconds) {

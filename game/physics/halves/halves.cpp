@@ -19,8 +19,8 @@ void Halves::pass_crossings(Followed& puck, Real now) const {
   }
 }
 
-/// The course before an event holds up to it; what is beyond the line by a rounding then is told by
-/// where the new one begins.
+/// The old course is followed up to the event. Where rounding puts the body beyond the line there,
+/// the start of the new course decides on which side it is.
 void Halves::look(Followed& puck, const std::optional<Motion>& motion, Real now) {
   if (puck.is_in_play) pass_crossings(puck, now);
   const bool was_in_play = puck.is_in_play;

@@ -177,7 +177,7 @@ void BotCrowd::advance_clocks() {
   if (now - clocks_advanced_s_ < 0.25) return;
   clocks_advanced_s_ = now;
   crowd_.for_each_present([&](Bot& bot) {
-    if (!bot.is_connected) return;  // who waits for a connection hears of it from the transport
+    if (!bot.is_connected) return;  // the transport reports a connection that fails
     bot.client.ambassador().advance_clock(now, transport_.is_behind());
     crowd_.send(bot);
   });

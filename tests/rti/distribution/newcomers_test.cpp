@@ -11,7 +11,7 @@
 namespace rink::rti {
 namespace {
 
-/// Takes in who waits, each of whom looks at `pairs`, and ends the match.
+/// Admits waiting federates, which have `pairs` pairs each, and ends the match.
 std::vector<std::uint32_t> match_of(Newcomers& newcomers, std::size_t pairs) {
   std::vector<std::uint32_t> taken_in;
   newcomers.admit_waiting([pairs](std::uint32_t) { return pairs; },

@@ -88,10 +88,10 @@ bool OverloadControl::slow_down(double end_s) {
   return change_to(wanted);
 }
 
-/// The game alone takes longer than there is, so that no divisor brings the ticks in time: they
-/// come every `between_s`, of which `telling_s` [s] are for clients. These are told half of the
-/// time, as long as each is told within `told_within_s`: rare turns of ever longer ticks left
-/// clients without news for half a minute.
+/// Simulating alone takes longer than a tick, so that no divisor brings the ticks in time. They
+/// come every `between_s`, of which sending takes `telling_s` [s]. Sending gets half of the time,
+/// as long as each client is updated within `told_within_s`: with few updates and ever longer ticks
+/// clients had no news for half a minute.
 bool OverloadControl::share_out(double between_s, double telling_s) {
   const double within_s = settings_.told_within_s, game_s = between_s - telling_s;
   if (divisor_ > 1 && (telling_s < telling_min * between_s || divisor_ * between_s > within_s)) {
