@@ -99,8 +99,8 @@ std::vector<double> documented(const std::string& name) {
   std::ifstream document(rink::test::source_folder() + "/docs/collision.md");
   std::vector<double> numbers;
   for (std::string line; std::getline(document, line);) {
-    if (!line.starts_with("| " + name + " |")) continue;
-    std::istringstream cells(line.substr(name.size() + 4));
+    if (!line.starts_with("|" + name + "|")) continue;
+    std::istringstream cells(line.substr(name.size() + 2));
     for (std::string cell; std::getline(cells, cell, '|');) numbers.push_back(std::stod(cell));
   }
   return numbers;
@@ -111,8 +111,8 @@ void expect_documented(const std::vector<double>& sorted, const std::string& nam
   const std::vector<double> parts = documented("quantile"), expected = documented(name);
   ASSERT_FALSE(parts.empty());
   ASSERT_EQ(expected.size(), parts.size());
-  std::printf("| %s |", name.c_str());
-  for (const double part : parts) std::printf(" %.3g |", quantile(sorted, part));
+  std::printf("|%s|", name.c_str());
+  for (const double part : parts) std::printf("%.3g|", quantile(sorted, part));
   std::printf("\n");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const double last_digit = std::pow(10.0, std::floor(std::log10(expected[i])) - 1.0);
