@@ -6,6 +6,7 @@
 #include "game/net/client/receipt_log.h"
 #include "game/net/interest_codec.h"
 #include "game/replication/trajectory_codec.h"
+#include "rti/wire/stream.h"
 #include "tests/places.h"
 
 namespace rink::game {
