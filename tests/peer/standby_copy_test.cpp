@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "game/peer/assembly.h"
+#include "game/peer/cuts.h"
 #include "game/peer/standby/known_bodies.h"
 #include "game/peer/standby/packed_states.h"
 #include "game/peer/standby/standby_feed.h"

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "rti/wire/frame.h"
+#include "tests/rti/rig.h"
 #include "tests/rti/seeded.h"
 
 namespace rink::rti::testing {
