@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include "rti/federation/oldest_stranger.h"
 #include "rti/refusal_words.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/management_messages.h"
@@ -88,17 +89,13 @@ void FederationDirectory::connect(ConnectionId id) {
   if (id >= connections_.size()) connections_.resize(id + 1);
   connections_[id] = {};
   connections_[id].is_connected = true;
-  connections_[id].since = connections_[id].last_received = now_;
+  connections_[id].since = now_;
 }
 
 std::optional<ConnectionId> FederationDirectory::oldest_stranger(const ConnectionTest& test) const {
-  std::optional<ConnectionId> oldest;
-  for (ConnectionId id = 0; id < connections_.size(); ++id)
-    if (connections_[id].is_connected && connections_[id].execution == nullptr &&
-        now_ - connections_[id].since >= stranger_due_s && test(id) &&
-        (!oldest || connections_[id].since < connections_[*oldest].since))
-      oldest = id;
-  return oldest;
+  return oldest_stranger_of(connections_, now_, [&](ConnectionId id) {
+    return connections_[id].is_connected && connections_[id].execution == nullptr && test(id);
+  });
 }
 
 void FederationDirectory::receive(ConnectionId id, Bytes bytes) {
@@ -122,7 +119,7 @@ bool FederationDirectory::handle_waiting(ConnectionId id) {
     const std::size_t size = head->size + head->length;
     if (rest.size() < size) break;
     const Bytes frame = rest.subspan(head->size, head->length);
-    connection.has_spoken = true;  // by a whole frame: a byte now and then is no sign of life
+    connection.silence.broken();  // by a whole frame: a byte now and then is no sign of life
     const bool is_join = static_cast<MessageKind>(frame[0]) == MessageKind::join;
     if (is_join ? !lead(id, frame) : !handle_frame(id, frame)) return false;
     if (!is_join) taken += size;
@@ -221,17 +218,14 @@ void FederationDirectory::disconnect(ConnectionId id, std::string_view why) {
 }
 
 void FederationDirectory::advance_clock(double now, bool is_behind) {
-  const double passed_s = now - std::exchange(now_, now);
+  const double passed_s = now - std::exchange(now_, now),
+               lost_after_s = settings_.federation.timeouts.lost_after_s;
   for (const auto& execution : executions_) execution->advance_clock(now, is_behind);
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     Connection& connection = connections_[id];
     if (!connection.is_connected || connection.execution != nullptr) continue;
-    const Timeouts& timeouts = settings_.federation.timeouts;
-    if (connection.has_spoken) connection.last_received = now, connection.excused_s = 0.0;
-    else if (is_behind && connection.excused_s < Timeouts::excuse_max * timeouts.lost_after_s)
-      connection.last_received += passed_s, connection.excused_s += passed_s;
-    connection.has_spoken = false;
-    if (now - connection.last_received > settings_.federation.timeouts.lost_after_s) drop(id);
+    connection.silence.advance(passed_s, is_behind, lost_after_s);
+    if (connection.silence.lasted_s() > lost_after_s) drop(id);
   }
 }
 

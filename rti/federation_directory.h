@@ -10,6 +10,7 @@
 
 #include "rti/federation_execution.h"
 #include "rti/pre_join_limits.h"
+#include "rti/wire/silence.h"
 
 namespace rink::rti {
 
@@ -57,11 +58,12 @@ class FederationDirectory final : public CentralComponent {
  private:
   class JoinRouter;
   struct Connection {
-    bool is_connected = false, has_spoken = false;
+    bool is_connected = false;
     FederationExecution* execution = nullptr;  ///< null until it asks to join one
     std::vector<std::byte> waiting;            ///< bytes received before that which are no whole
                                                ///< frame
-    double since = 0.0, last_received = 0.0, excused_s = 0.0;
+    double since = 0.0;                        ///< when it was made [s]
+    Silence silence;
     PreJoinLimits limits;
   };
   struct Answer {

@@ -66,7 +66,7 @@ FederationReport Connections::report(const Outlet* outlet) const {
   for (FederateReport& each : report.federates)
     if (const auto slot = basis_.federates.joined(each.federate))
       each.counts.silence_s =
-          basis_.now - connections_[basis_.federates[*slot].connection].last_received;
+          connections_[basis_.federates[*slot].connection].silence.lasted_s();
   return report;
 }
 

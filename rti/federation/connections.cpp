@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "rti/federation/oldest_stranger.h"
 #include "rti/fom/fom_digest.h"
 #include "rti/wire/federation_messages.h"
 #include "rti/wire/fom_messages.h"
@@ -16,18 +17,14 @@ void Connections::connect(ConnectionId id) {
   if (id >= connections_.size()) connections_.resize(id + 1);
   connections_[id] = {};
   connections_[id].phase = Phase::connected;
-  connections_[id].since = connections_[id].last_received = basis_.now;
+  connections_[id].since = basis_.now;
 }
 
 std::optional<ConnectionId> Connections::oldest_stranger(
     const CentralComponent::ConnectionTest& test) const {
-  std::optional<ConnectionId> oldest;
-  for (ConnectionId id = 0; id < connections_.size(); ++id)
-    if (connections_[id].phase == Phase::connected &&
-        basis_.now - connections_[id].since >= stranger_due_s && test(id) &&
-        (!oldest || connections_[id].since < connections_[*oldest].since))
-      oldest = id;
-  return oldest;
+  return oldest_stranger_of(connections_, basis_.now, [&](ConnectionId id) {
+    return connections_[id].phase == Phase::connected && test(id);
+  });
 }
 
 void Connections::disconnect(ConnectionId id) {
@@ -42,24 +39,15 @@ void Connections::forget_words(ConnectionId id) {
     std::erase_if(*words, [id](const PendingClose& each) { return each.connection == id; });
 }
 
-/// However late it is called, the time since then counts as `lost_after_s` at most, and not at all
-/// where not all could be read, which excuses a while: what was sent meanwhile waits in the
-/// sockets, and a federate is lost by its own silence alone.
 void Connections::advance_clock(bool is_behind) {
   const double lost_after_s = basis_.settings.timeouts.lost_after_s;
-  const double passed_s = basis_.now - advanced_s_.value_or(basis_.now),
-               unseen_s = std::max(0.0, passed_s - lost_after_s),
-               excuse_max_s = Timeouts::excuse_max * lost_after_s;
+  const double passed_s = basis_.now - advanced_s_.value_or(basis_.now);
   advanced_s_ = basis_.now;
   for (ConnectionId id = 0; id < connections_.size(); ++id) {
     FederationConnection& connection = connections_[id];
     if (connection.phase == Phase::unknown) continue;
-    const bool is_excused = is_behind && connection.excused_s < excuse_max_s;
-    if (connection.has_spoken) connection.last_received = basis_.now, connection.excused_s = 0.0;
-    else connection.last_received += is_excused ? passed_s : unseen_s;
-    if (is_excused) connection.excused_s += passed_s;
-    connection.has_spoken = false;
-    if (basis_.now - connection.last_received > lost_after_s)
+    connection.silence.advance(passed_s, is_behind, lost_after_s);
+    if (connection.silence.lasted_s() > lost_after_s)
       expel(id, Violation::silent, ResignReason::lost, explain(Violation::silent));
   }
 }
@@ -89,7 +77,7 @@ void Connections::receive(ConnectionId id, Bytes bytes) {
   basis_.counters.bytes_received += bytes.size();
   // Of an unjoined connection only whole frames count as signs of life: one byte now and then does
   // not.
-  connections_[id].has_spoken |= is_joined(id);
+  if (is_joined(id)) connections_[id].silence.broken();
   if (is_joined(id)) basis_.federates[connections_[id].federate].counts.bytes_sent += bytes.size();
   // The reader is moved out meanwhile, so that dropping the connection does not destroy it while it
   // reads.
@@ -119,7 +107,7 @@ void Connections::punish(ConnectionId id, Framing framing, const Status& status)
 void Connections::receive_datagram(ConnectionId id, Bytes datagram) {
   if (is_unknown(id) || !is_joined(id)) return;
   basis_.counters.bytes_received += datagram.size();
-  connections_[id].has_spoken = true;
+  connections_[id].silence.broken();
   const std::uint32_t slot = connections_[id].federate;
   basis_.federates[slot].counts.bytes_sent += datagram.size();
   handler_.handle_datagram(slot, datagram);
@@ -127,7 +115,7 @@ void Connections::receive_datagram(ConnectionId id, Bytes datagram) {
 
 Status Connections::handle_frame(ConnectionId id, Bytes frame) {
   ++basis_.counters.frames_received;
-  connections_[id].has_spoken = true;
+  connections_[id].silence.broken();
   if (is_joined(id)) handler_.begin_frame(connections_[id].federate);
   Reader reader(frame);
   while (!reader.is_at_end() && !is_unknown(id))

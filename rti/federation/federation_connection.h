@@ -9,6 +9,7 @@
 #include "rti/pre_join_limits.h"
 #include "rti/wire/bytes.h"
 #include "rti/wire/frame.h"
+#include "rti/wire/silence.h"
 
 namespace rink::rti {
 
@@ -16,10 +17,9 @@ struct FederationConnection {
   enum class Phase : std::uint8_t { unknown, connected, joined };
   Phase phase = Phase::unknown;
   std::uint32_t federate = 0;  ///< slot, once joined
-  bool has_spoken = false;     ///< since the last `advance_clock`
   PreJoinLimits limits;
-  double since = 0.0, last_received = 0.0;
-  double excused_s = 0.0;  ///< of its silence, while not all could be read
+  double since = 0.0;  ///< when it was made [s]
+  Silence silence;
   FrameReader reader;
 };
 

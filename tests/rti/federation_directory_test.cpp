@@ -188,10 +188,25 @@ TEST(FederationDirectory, WhoBreaksARuleOrIsSilentIsDroppedAndNobodyElse) {
   EXPECT_EQ(drain.dropped.size(), crimes.size());
   EXPECT_THAT(drain.dropped, Not(Contains(0u)));
   directory.advance_clock(0.0);
+  directory.advance_clock(3.0);
   directory.advance_clock(5.1);
   directory.flush(drain);
   EXPECT_THAT(drain.dropped, Contains(0u));
   EXPECT_EQ(directory.drops(), crimes.size() + 1);
+}
+
+TEST(FederationDirectory, BlamesNobodyForATimeInWhichItDidNotListen) {
+  FederationDirectory directory;
+  directory.offer(harbour());
+  Drain drain;
+  directory.connect(0);
+  directory.advance_clock(0.0);
+  directory.advance_clock(60.0);
+  directory.flush(drain);
+  EXPECT_THAT(drain.dropped, Not(Contains(0u)));
+  directory.advance_clock(60.5);
+  directory.flush(drain);
+  EXPECT_THAT(drain.dropped, Contains(0u));
 }
 
 TEST(FederationDirectory, AnswersEarlierVersionsInTheFormThatTheyRead) {
