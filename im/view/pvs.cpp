@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "im/schemes/predicate_filter.h"
+#include "im/view/cell_filter.h"
 #include "im/view/middle_cell.h"
 #include "im/view/shadow.h"
 
@@ -41,23 +41,12 @@ class PotentiallyVisible {
   std::vector<Disc> posts_;
 };
 
-class PvsFilter final : public PredicateFilter<PotentiallyVisible> {
- public:
-  explicit PvsFilter(const FilterSettings& settings)
-      : PredicateFilter(settings.world, PotentiallyVisible(settings)),
-        cell_size_(cell_size_of(settings)) {}
-  double cell_size() const override { return cell_size_; }
-
- private:
-  double cell_size_;
-};
-
 }  // namespace
 
 std::unique_ptr<Filter> make_pvs_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_pvs_filter(const FilterSettings& settings) {
-  return std::make_unique<PvsFilter>(settings);
+  return std::make_unique<CellFilter<PotentiallyVisible>>(settings);
 }
 
 }  // namespace rink::im

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "im/schemes/predicate_filter.h"
+#include "im/view/cell_filter.h"
 #include "im/view/middle_cell.h"
 #include "im/view/shadow.h"
 
@@ -114,23 +114,12 @@ class TileDistance {
   std::map<std::pair<double, double>, Steps> known_;
 };
 
-class TilesFilter final : public PredicateFilter<TileDistance> {
- public:
-  explicit TilesFilter(const FilterSettings& settings)
-      : PredicateFilter(settings.world, TileDistance(settings)),
-        cell_size_(cell_size_of(settings)) {}
-  double cell_size() const override { return cell_size_; }
-
- private:
-  double cell_size_;
-};
-
 }  // namespace
 
 std::unique_ptr<Filter> make_tiles_filter(const FilterSettings& settings);
 
 std::unique_ptr<Filter> make_tiles_filter(const FilterSettings& settings) {
-  return std::make_unique<TilesFilter>(settings);
+  return std::make_unique<CellFilter<TileDistance>>(settings);
 }
 
 }  // namespace rink::im
