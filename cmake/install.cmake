@@ -1,9 +1,9 @@
-# `cmake --install build --component library` gives another project `find_package(rink COMPONENTS im rti transport)` with the targets rink::im, rink::rti and
-# rink::transport. Each has its own file of targets, so that whoever asks for the filters alone needs nothing but the standard library.
+# `cmake --install build --component library` gives another project `find_package(rink COMPONENTS im rti transport rti1516e)` with the targets rink::im, rink::rti,
+# rink::transport and rink::rti1516e. Each has its own file of targets, so that whoever asks for the filters alone needs nothing but the standard library.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/rink)
 
-foreach(part im rti transport)
+foreach(part im rti transport rti1516e)
   install(TARGETS rink_${part} EXPORT rink_${part}_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library)
   install(EXPORT rink_${part}_targets FILE rink-${part}-targets.cmake NAMESPACE rink:: DESTINATION ${package_dir} COMPONENT library)
 endforeach()

@@ -13,7 +13,7 @@ import sys
 FUNCTIONS_MAX, DATA_MAX = 40, 20
 
 # Whose width the HLA standard sets, what only forwards to them, and records whose few functions only copy, compare or write their members.
-EXCEPTED = {"Ambassador", "FederateAmbassador", "CallbackQueue", "BodyState", "Counters", "Experiment", "RunRecord"}
+EXCEPTED = {"Ambassador", "FederateAmbassador", "RTIambassador", "NullFederateAmbassador", "CallbackQueue", "Receiver", "BodyState", "Counters", "Experiment", "RunRecord"}
 
 FOLDERS = ("rti", "im", "game", "loadgen", "bench")
 OPENING = re.compile(r"\b(?:class|struct)\s+(?:\[\[\w+\]\]\s*)?(?:alignas\([^)]*\)\s*)?([\w:]+)(?:<[^;{}()]*>)?\s*(?:final\s*)?(?::(?!:)[^;{}]*)?\{")

@@ -33,6 +33,7 @@ const std::vector<Layer> layers{
     {"rti/transport/mpi", {"rti/transport/mpi", "rti/transport"}},
     {"rti/transport/modelled", {"rti/transport/modelled", "rti/transport"}},
     {"rti/transport", {"rti/transport", "rti/transport/modelled", "rti", "im"}},
+    {"rti/standard", {"rti/standard", "rti/transport", "rti", "im"}},
     {"rti", {"rti", "im", "im/stages"}},
     {"game/physics/events", {"game/physics/events", "game/physics"}},
     {"game/physics/flight", {"game/physics/flight", "game/physics"}},
@@ -171,7 +172,8 @@ const std::map<std::string, std::string> exceptions{{"im/matching/buffer.cpp", "
 /// measures how long its poll waits for its sockets.
 bool may_read_clocks(const SourceFile& source) {
   return source.is_command() || source.is_in("game/apps") || source.is_in("loadgen") ||
-         source.is_in("bench") || source.is_in("tests") || source.is_in("rti/transport");
+         source.is_in("bench") || source.is_in("tests") || source.is_in("rti/transport") ||
+         source.is_in("rti/standard");
 }
 
 /// Whether `line` names a clock, be it for an alias, or calls one that has no type.
@@ -201,6 +203,7 @@ std::string folder_of(const std::string& path) {
 /// The folder that layers know `path` by.
 std::string part_of(const std::string& path) {
   const std::string folder = folder_of(path);
+  if (folder.starts_with("rti/standard")) return "rti/standard";
   if (folder.starts_with("rti/") && !folder.starts_with("rti/transport")) return "rti";
   return std::ranges::find(divisions, folder) == divisions.end() ? folder : folder_of(folder);
 }

@@ -14,7 +14,7 @@ from class_weight import FOLDERS, bare, end_of_block
 PARAMETERS_MAX = 5
 
 # Whose parameters somebody else has fixed: the HLA standard, or the C library that calls them.
-EXCEPTED = set()
+EXCEPTED = {"reflectAttributeValues", "receiveInteraction", "removeObjectInstance"}
 
 SCOPE = re.compile(r"^\s*(?:(?:inline\s+)?namespace\b|extern\s*\"\"|(?:template\s*<.*>\s*)?(?:class|struct|union|enum)\b(?!.*\)\s*(?:const\b)?\s*$))", re.DOTALL)
 NAMED = re.compile(r"(operator\s*(?:\(\)|\[\]|[^\s\w(]+)|~?\w+)\s*\(")

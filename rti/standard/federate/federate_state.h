@@ -1,0 +1,57 @@
+// What a federate of the standard's API has beside its core; all of it is used under one mutex.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "rti/ambassador.h"
+#include "rti/standard/federate/declarations.h"
+#include "rti/standard/federate/deliveries.h"
+#include "rti/standard/times.h"
+
+namespace rink::standard {
+
+/// An object that the federate has registered, or discovered.
+struct KnownObject {
+  rti::ObjectClassHandle object_class;  ///< as the federate knows it
+  std::string name;
+};
+
+/// Time as the federate has been told it: the core may be a few callbacks ahead.
+struct ToldTime {
+  double now = 0.0;
+  bool is_advancing = false, is_regulation_pending = false, is_constrained_pending = false;
+};
+
+/// Answers of the RTI that a service waits for.
+struct Answers {
+  struct Divestiture {
+    rti::ObjectHandle object;
+    rti::AttributeSet asked, divested, kept;
+  };
+  std::optional<rti::HlaError> created{}, destroyed{};
+  bool is_joined = false, is_self_known = false;
+  std::optional<std::pair<rti::HlaError, std::string>> join_refused{};
+  std::optional<std::pair<double, double>> bounds{};  ///< GALT and LITS
+  std::optional<Divestiture> divestiture{};
+};
+
+struct FederateState {
+  explicit FederateState(rti1516e::FederateAmbassador& user) : deliveries(user) {}
+
+  Deliveries deliveries;
+  Times times{};
+  ToldTime time{};
+  Declarations declarations{};
+  std::unordered_map<rti::ObjectHandle, KnownObject> objects{};
+  std::set<std::string> reserved_names{};
+  rti::ResignAction resign_directive = rti::ResignAction::cancel_then_delete_then_divest;
+  Answers answers{};
+  rti::Ambassador* core = nullptr;            ///< null while there is no connection
+  std::optional<std::string> lost_because{};  ///< the connection has ended by itself
+};
+
+}  // namespace rink::standard
