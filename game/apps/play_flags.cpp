@@ -144,7 +144,9 @@ void add_options(game::Flags& flags, PlayOptions& options) {
               "or touch, which the bat follows; gamepad, its left stick. Keys go on beside it "
               "(default: the setting control)")
       .check(one_of({"keys", "pointer", "gamepad"}));
-  flags.option("--size", options.size, "size of the window")
+  flags
+      .option("--size", options.size,
+              "size of the window (without it: as it was when it was closed last)")
       .value_name("WIDTHxHEIGHT")
       .shows_default();
   flags.flag("--full-screen", options.is_full_screen, "fill the screen; F11 changes it");

@@ -53,6 +53,9 @@ class Process {
     }
   }
 
+  /// As large as it was when it was closed last.
+  void run_in_window();
+  /// The same with another size.
   void run_in_window(const view::WindowSize& size);
   void run_offscreen(const view::WindowSize& size);
 
@@ -82,6 +85,7 @@ class Process {
     view::write_png(file, view::read_pixels(framebuffer, size.width, size.height));
   }
   void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
+  void save(const view::Settings& settings);
 
   view::PlayOptions options_;
   std::string settings_file_, errors_;
@@ -110,16 +114,18 @@ void Process::open(view::Window* window) {
       sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume);
     };
   }
-  surroundings.save_settings = [this](const view::Settings& settings) {
-    if (std::exchange(is_misread_, false))
-      if (const auto place = view::set_settings_aside(settings_file_)) notify(*place);
-    if (const auto problem = view::write_settings(settings, settings_file_)) notify(*problem);
-  };
+  surroundings.save_settings = [this](const view::Settings& settings) { save(settings); };
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
   if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
   if (options_.shows_figures) application_->show_figures();
   if (!errors_.empty()) application_->explain(errors_);
   if (const auto wish = view::wish_of(options_)) application_->play(*wish);
+}
+
+void Process::save(const view::Settings& settings) {
+  if (std::exchange(is_misread_, false))
+    if (const auto place = view::set_settings_aside(settings_file_)) notify(*place);
+  if (const auto problem = view::write_settings(settings, settings_file_)) notify(*problem);
 }
 
 void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen) {
@@ -128,6 +134,10 @@ void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now,
                                                      // script that takes no picture does not wait
   application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size,
                      {framebuffer, 0, 0, size.width, size.height}, now);
+}
+
+void Process::run_in_window() {
+  run_in_window({settings_.window.width, settings_.window.height, 1.0});
 }
 
 /// At one instant keys come first, then the frame, then its picture.
@@ -146,6 +156,7 @@ void Process::run_in_window(const view::WindowSize& size) {
     // silent.
     const view::WindowSize now_size = window.size();
     const bool is_seen = now_size.width > 0 && now_size.height > 0;
+    if (is_seen && !window.is_full_screen()) application_->remember_window(window.points());
     draw(is_seen ? now_size : size, 0, begin_s, is_seen);
     if (is_seen) {
       for (const view::ScriptStep& step : due)
@@ -156,6 +167,7 @@ void Process::run_in_window(const view::WindowSize& size) {
     const double left_s = shortest_frame_s - (now_s() - begin_s);
     if (left_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
   }
+  if (application_->settings().window != settings_.window) save(application_->settings());
 }
 
 /// Time is counted in frames, so the same script gives the same pictures; frames of which no
@@ -209,7 +221,8 @@ game::ExitStatus play(const view::PlayOptions& options) {
                           "nobody could see it or press a key; give a --script or a --screenshot");
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
-  else process.run_in_window(*size);
+  else if (options.given.count("--size") != 0) process.run_in_window(*size);
+  else process.run_in_window();
   return game::is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
 }
 

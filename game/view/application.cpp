@@ -148,6 +148,7 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   }
   assert(frame_s_ > 0.0);
   if (last_s_ >= 0.0 && now_s > last_s_) frame_s_ += 0.05 * (now_s - last_s_ - frame_s_);
+  view_.palette = settings_.palette;
   view_.shows_link = shows_figures_;
   view_.frames_per_s = 1.0 / frame_s_;
   ViewChoice choice = view_;

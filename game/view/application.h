@@ -51,6 +51,10 @@ class Application {
   void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas,
             double now_s);
 
+  /// The window has this size, which fills no screen; kept with the settings.
+  void remember_window(const WindowPoints& window) { settings_.window = window; }
+  const Settings& settings() const { return settings_; }
+
   bool wants_to_quit() const { return wants_to_quit_; }
   /// True once a match that was started by play() is over or gone.
   bool is_in_menu() const { return wish_.kind == MatchWish::Kind::bots; }

@@ -76,7 +76,7 @@ void Menu::begin_panel(const char* name, float width, float middle) const {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
 }
 
-void Menu::draw_title() const {
+void Menu::draw_title(const Palette& palette) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   assert(interface_ != nullptr && unit_ > 0.0f);
   ImFont* font = interface_->title_font();
@@ -84,7 +84,7 @@ void Menu::draw_title() const {
   const ImVec2 screen = ImGui::GetIO().DisplaySize,
                extent = font->CalcTextSizeA(height, 1e6f, 0.0f, "RINK");
   ImVec2 place(0.5f * (screen.x - extent.x), 0.155f * screen.y - 0.5f * extent.y);
-  for (const auto& [letters, colour] : {std::pair{"RI", left_colour}, {"NK", right_colour}}) {
+  for (const auto& [letters, colour] : {std::pair{"RI", palette.left}, {"NK", palette.right}}) {
     list.AddText(font, height, {place.x + 5.0f * unit_, place.y + 5.0f * unit_},
                  IM_COL32(0, 0, 6, 190), letters);
     list.AddText(font, height, place, ImGui::ColorConvertFloat4ToU32(vector_of(colour)), letters);
@@ -108,7 +108,8 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
   ++drawn_;
   interface_ = &interface;
   unit_ = interface.unit();
-  if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused) draw_title();
+  if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused)
+    draw_title(palette_of(settings.palette));
   switch (screen_) {
     case Screen::none:
       break;
@@ -187,10 +188,11 @@ void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title,
 
 void Menu::draw_keys(Settings& settings) {
   constexpr std::array directions{"left", "right", "up", "down"};
+  const Palette& palette = palette_of(settings.palette);
   if (!ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingStretchSame)) return;
   ImGui::TableNextRow();
   for (const auto& [column, words, colour] :
-       {std::tuple{1, "Red", left_colour}, {2, "Blue", right_colour}}) {
+       {std::tuple{1, palette.left_name, palette.left}, {2, palette.right_name, palette.right}}) {
     ImGui::TableSetColumnIndex(column);
     ImGui::TextColored(vector_of(colour), "%s", words);
   }
@@ -249,6 +251,9 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   ImGui::SameLine();
   ImGui::Checkbox("Split screen for two", &settings.is_split);
   draw_control(settings);
+  const auto palette = static_cast<std::size_t>(settings.palette);
+  if (ImGui::Button((std::string(palettes[palette].label) + "##colours").c_str()))
+    settings.palette = static_cast<PaletteKind>((palette + 1) % palettes.size());
   ImGui::PopFont();
   if (button("Keys as they were")) settings.keys = default_keys();
   if (button("Back")) open(back_);

@@ -76,7 +76,7 @@ class Menu {
   void draw_control(Settings& settings) const;
   void draw_paused(MenuWish& wish);
   void draw_over(MenuWish& wish, const MatchSight& sight);
-  void draw_title() const;
+  void draw_title(const Palette& palette) const;
   void draw_error() const;
 
   Screen screen_ = Screen::main, back_ = Screen::main;

@@ -1,4 +1,4 @@
-// The player's settings: keys, sound, size of the window, in a small TOML file that people may
+// The player's settings: keys, sound, effects, the window, in a small TOML file that people may
 // edit.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "game/model/key.h"
+#include "game/view/palette.h"
 
 namespace rink::view {
 
@@ -30,6 +31,16 @@ inline constexpr std::array<const char*, 3> control_names{"keys", "pointer", "ga
 /// Nothing if `name` is none of control_names.
 std::optional<Control> control_from_name(std::string_view name);
 
+/// Of the file; 1 had no entry `version`.
+inline constexpr std::int64_t settings_version = 2;
+
+/// Of a window on the desktop [points].
+struct WindowPoints {
+  int width = 1280, height = 720;
+  friend bool operator==(const WindowPoints&, const WindowPoints&) = default;
+};
+inline constexpr WindowPoints window_least{320, 240}, window_most{8192, 8192};
+
 struct Settings {
   std::array<KeySet, 2> keys;       ///< of the left and the right player
   Control control = Control::keys;  ///< of the only player, or of the left of two
@@ -39,6 +50,8 @@ struct Settings {
   double volume = 0.7;  ///< 0 to 1
   bool is_full_screen = false;
   bool is_split = true;  ///< two at one keyboard see the table each from the own end
+  WindowPoints window{};
+  PaletteKind palette = PaletteKind::standard;
   Settings();
   friend bool operator==(const Settings&, const Settings&) = default;
 };

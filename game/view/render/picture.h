@@ -25,9 +25,7 @@ struct Piece {
 struct Table {
   float length = 2.4f, width = 1.2f, goal_width = 0.4f;  ///< m
   Colour left{}, right{};                                ///< of the two teams
-  friend bool operator==(const Table& a, const Table& b) {
-    return a.length == b.length && a.width == b.width && a.goal_width == b.goal_width;
-  }
+  friend bool operator==(const Table&, const Table&) = default;
 };
 
 /// The board with the score. It stands upright with its middle over (x, y), facing a viewer that
