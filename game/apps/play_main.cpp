@@ -12,6 +12,7 @@
 #include "game/net/interrupt.h"
 #include "game/version/version.h"
 #include "game/view/application.h"
+#include "game/view/feel/less_motion.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "game/view/script.h"
@@ -106,12 +107,15 @@ void Process::open(view::Window* window) {
     return view::make_match(wish, options_);
   };
   surroundings.notify = notify;
+  surroundings.wants_less_motion = view::wants_less_motion(view::desktop_settings_folder());
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();
     surroundings.set_full_screen = [window](bool is_wanted) { window->set_full_screen(is_wanted); };
     surroundings.sound = [this](const std::vector<view::Noise>& noises,
                                 const view::Settings& settings) {
-      sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume);
+      sounds_->play(noises, {.volume = settings.is_muted ? 0.0 : settings.volume,
+                             .has_horn = settings.has_effects,
+                             .has_music = settings.has_music && settings.has_effects});
     };
   }
   surroundings.save_settings = [this](const view::Settings& settings) { save(settings); };

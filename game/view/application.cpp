@@ -48,6 +48,7 @@ void Application::start(const MatchWish& wish) {
   std::unique_ptr<MatchSource> match = surroundings_.make_match(wish);
   assert(match != nullptr);
   held_.clear();
+  feel_ = {};
   match_ = std::move(match);
   wish_ = wish;
   view_ = {};
@@ -133,6 +134,11 @@ void Application::follow_phase() {
   phase_ = sight.phase;
 }
 
+/// Whether effects that move are wanted.
+bool Application::has_motion() const {
+  return settings_.has_effects && !settings_.has_less_motion && !surroundings_.wants_less_motion;
+}
+
 ViewChoice Application::view(const MatchSight& sight, double now_s) {
   if (chosen_viewpoint_) view_.viewpoint = *chosen_viewpoint_;
   else if (sight.own_team)
@@ -146,11 +152,13 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   } else if (view_.zoom <= 1.0) {
     view_.centre = {0.5, 0.5};
   }
-  assert(frame_s_ > 0.0);
-  if (last_s_ >= 0.0 && now_s > last_s_) frame_s_ += 0.05 * (now_s - last_s_ - frame_s_);
+  assert(figures_.frame_s > 0.0);
+  if (figures_.last_s >= 0.0 && now_s > figures_.last_s)
+    figures_.frame_s += 0.05 * (now_s - figures_.last_s - figures_.frame_s);
   view_.palette = settings_.palette;
-  view_.shows_link = shows_figures_;
-  view_.frames_per_s = 1.0 / frame_s_;
+  view_.has_effects = has_motion();
+  view_.shows_link = figures_.are_shown;
+  view_.frames_per_s = 1.0 / figures_.frame_s;
   ViewChoice choice = view_;
   if (wish_.kind == MatchWish::Kind::bots) choice.viewpoint = Viewpoint::side;
   return choice;
@@ -171,6 +179,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
         sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_),
         there, static_cast<double>(part.width) / part.height);
     if (is_behind_menu) picture.board.is_there = false;
+    else if (has_motion()) feel_.impacts.add_to(picture);
     if (renderer != nullptr) renderer->draw(picture, part);
     return picture;
   };
@@ -186,6 +195,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
     words = picture_from(choice.viewpoint, canvas);
   }
   words.is_split = has_two;
+  if (!is_behind_menu) draw_goal_again(renderer, canvas, words);
   add_hand_words(words, now_s);
   if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) {
     words.texts.push_back(replay_line(*replay));
@@ -199,9 +209,41 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   interface.draw(words);
 }
 
+/// A goal of a player's own match, in the upper left corner: the match goes on beside it.
+void Application::draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words) {
+  const MatchSight* sight = feel_.replay.shown();
+  if (sight == nullptr || match_->hand_count() != 1) return;
+  constexpr float left = 0.02f, top = 0.09f, part = 0.3f;
+  const int width = static_cast<int>(part * static_cast<float>(canvas.width)),
+            height = std::min(width * 9 / 16, canvas.height / 3),
+            x = static_cast<int>(left * static_cast<float>(canvas.width)),
+            y = canvas.height - static_cast<int>(top * static_cast<float>(canvas.height)) - height;
+  Picture picture =
+      picture_of(*sight, {}, {.palette = settings_.palette}, static_cast<double>(width) / height);
+  picture.board.is_there = false;
+  if (renderer != nullptr)
+    renderer->draw(picture, {canvas.framebuffer, canvas.x + x, canvas.y + y, width, height});
+  const auto of_width = [&](int pixels) {
+    return static_cast<float>(pixels) / static_cast<float>(canvas.width);
+  };
+  const auto of_height = [&](int pixels) {
+    return static_cast<float>(pixels) / static_cast<float>(canvas.height);
+  };
+  words.panels.push_back({.x = of_width(x),
+                          .y = top,
+                          .width = of_width(width),
+                          .height = of_height(height),
+                          .outline = {0.93f, 0.95f, 0.99f, 0.8f}});
+  words.texts.push_back({.words = "the goal again   Space: skip",
+                         .x = of_width(x + width / 2),
+                         .y = top + of_height(height) + 0.025f,
+                         .size = 0.026f,
+                         .has_plate = true});
+}
+
 void Application::draw(Interface& interface, Renderer* renderer, const WindowSize& size,
                        const Canvas& canvas, double now_s) {
-  assert((last_s_ < 0.0 || now_s >= last_s_) && "real time never falls");
+  assert((figures_.last_s < 0.0 || now_s >= figures_.last_s) && "real time never falls");
   size_ = size;
   hear_events(interface);
   if (const Thing* asked = interest_.is_shown ? asked_thing(match_->sight(), interest_) : nullptr)
@@ -209,11 +251,17 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   move_hand();
   match_->advance(now_s);
   follow_phase();
+  if (has_motion() && wish_.kind != MatchWish::Kind::bots) {
+    feel_.impacts.look(match_->sight(), now_s);
+    if (wish_.kind != MatchWish::Kind::replay) feel_.replay.look(match_->sight(), now_s);
+  } else {
+    feel_ = {};
+  }
   if (surroundings_.sound && wish_.kind != MatchWish::Kind::bots)
     surroundings_.sound(match_->sight().noises, settings_);
-  interface.begin(size, last_s_ < 0.0 ? 0.0 : now_s - last_s_);
+  interface.begin(size, figures_.last_s < 0.0 ? 0.0 : now_s - figures_.last_s);
   draw_views(interface, renderer, canvas, now_s);
-  last_s_ = now_s;
+  figures_.last_s = now_s;
   const MenuWish wish = menu_.draw(interface, settings_, match_->sight());
   interface.finish(canvas, renderer != nullptr);
   do_wish(wish);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "game/view/feel/goal_replay.h"
+#include "game/view/feel/impact_effects.h"
 #include "game/view/hand_control.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
@@ -28,6 +30,7 @@ struct Surroundings {
   std::function<void(const Settings&)> save_settings{};
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
   std::function<void(const std::string&)> notify{};  ///< troubles, for the standard error
+  bool wants_less_motion = false;                    ///< the desktop says so
 };
 
 class Application {
@@ -41,7 +44,7 @@ class Application {
   void explain(const std::string& error);
   void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
 
-  void show_figures() { shows_figures_ = true; }
+  void show_figures() { figures_.are_shown = true; }
 
   /// Takes effect at the next drawing or a later one, so that each press is visible in one drawing
   /// at least (event_queue.h).
@@ -72,6 +75,16 @@ class Application {
     bool is_dragging = false;
   };
 
+  struct Figures {
+    bool are_shown = false;
+    double last_s = -1.0, frame_s = 1.0 / 60.0;  ///< the last frame, and how long one takes
+  };
+
+  struct Feel {
+    ImpactEffects impacts;
+    GoalReplay replay;
+  };
+
   // application.cpp
   void start(const MatchWish& wish);
   void do_wish(const MenuWish& wish);
@@ -81,6 +94,8 @@ class Application {
   void draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas, double now_s);
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
+  bool has_motion() const;
+  void draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words);
 
   // application_input.cpp
   EventQueue::Pace pace() const;
@@ -111,12 +126,13 @@ class Application {
   ViewChoice view_;
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
-  bool shows_figures_ = false, follows_ = false;
+  bool follows_ = false;
   bool is_told_ = false;  ///< whether a replay's result was reported
   Mouse mouse_;
   HandControl hand_;
   WindowSize size_;
-  double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;
+  Figures figures_;
+  Feel feel_;
   bool wants_to_quit_ = false;
 };
 

@@ -60,6 +60,10 @@ void Application::set_split(bool is_wanted) {
 /// Handles keys of the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
   if (hear_replay(code)) return true;
+  if (code == GLFW_KEY_SPACE && feel_.replay.shown() != nullptr) {
+    feel_.replay.skip();
+    return true;
+  }
   switch (code) {
     case GLFW_KEY_TAB:
       ++interest_.chosen;
@@ -89,7 +93,7 @@ bool Application::hear_command(KeyCode code) {
       follows_ = !follows_;
       return true;
     case GLFW_KEY_F3:
-      shows_figures_ = !shows_figures_;
+      figures_.are_shown = !figures_.are_shown;
       return true;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:

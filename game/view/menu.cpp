@@ -254,8 +254,14 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   const auto palette = static_cast<std::size_t>(settings.palette);
   if (ImGui::Button((std::string(palettes[palette].label) + "##colours").c_str()))
     settings.palette = static_cast<PaletteKind>((palette + 1) % palettes.size());
+  ImGui::SameLine();
+  ImGui::Checkbox("Effects", &settings.has_effects);
+  ImGui::SameLine();
+  ImGui::Checkbox("Less motion", &settings.has_less_motion);
+  ImGui::Checkbox("Music", &settings.has_music);
+  ImGui::SameLine();
+  if (ImGui::Button("Keys as they were")) settings.keys = default_keys();
   ImGui::PopFont();
-  if (button("Keys as they were")) settings.keys = default_keys();
   if (button("Back")) open(back_);
   ImGui::End();
   if (settings != before && wish.kind == MenuWish::Kind::nothing)

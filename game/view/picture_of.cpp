@@ -18,14 +18,17 @@ Colour toned(const Colour& colour, float part) {
           std::lerp(colour.blue, to, weight), colour.alpha};
 }
 
-Piece piece_of(const Thing& thing, const Palette& palette) {
+Piece piece_of(const Thing& thing, const ViewChoice& choice) {
+  const Palette& palette = palette_of(choice.palette);
   Piece piece;
   piece.x = static_cast<float>(thing.position.x());
   piece.y = static_cast<float>(thing.position.y());
   piece.half_x = static_cast<float>(thing.half_extent.x());
   piece.half_y = static_cast<float>(thing.half_extent.y());
-  piece.velocity_x = static_cast<float>(thing.velocity.x());
-  piece.velocity_y = static_cast<float>(thing.velocity.y());
+  if (choice.has_effects) {
+    piece.velocity_x = static_cast<float>(thing.velocity.x());
+    piece.velocity_y = static_cast<float>(thing.velocity.y());
+  }
   if (thing.kind == physics::BodyKind::puck) {
     piece.shape = Piece::Shape::puck;
     piece.height = 0.6f * piece.half_x;
@@ -242,7 +245,7 @@ Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewCh
   picture.board = board_of(sight, choice.viewpoint);
   picture.overlay = overlay;
   picture.pieces.reserve(sight.things.size());
-  for (const Thing& thing : sight.things) picture.pieces.push_back(piece_of(thing, palette));
+  for (const Thing& thing : sight.things) picture.pieces.push_back(piece_of(thing, choice));
   if (sight.scorer)
     (*sight.scorer == game::Team::right ? picture.left_glow : picture.right_glow) =
         static_cast<float>(std::exp(-1.6 * sight.since_goal_s));

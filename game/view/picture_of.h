@@ -18,6 +18,7 @@ struct ViewChoice {
   bool shows_link = false;    ///< figures of the connection
   double frames_per_s = 0.0;  ///< shown with them
   PaletteKind palette = PaletteKind::standard;
+  bool has_effects = true;  ///< what is fast has a streak
 };
 
 /// `aspect` is width by height of the window.

@@ -28,7 +28,10 @@ struct Switch {
 };
 constexpr std::array switches{Switch{"mute", &Settings::is_muted},
                               Switch{"full_screen", &Settings::is_full_screen},
-                              Switch{"split_screen", &Settings::is_split}};
+                              Switch{"split_screen", &Settings::is_split},
+                              Switch{"effects", &Settings::has_effects},
+                              Switch{"reduced_motion", &Settings::has_less_motion},
+                              Switch{"music", &Settings::has_music}};
 
 class Reader {
  public:

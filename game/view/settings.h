@@ -47,7 +47,10 @@ struct Settings {
   double dead_zone = 0.15;          ///< of a gamepad's stick, of its way to the rim: 0 to 0.9
   double sensitivity = 1.0;         ///< how far pointer or stick move the hand: 0.2 to 5
   bool is_muted = false;
-  double volume = 0.7;  ///< 0 to 1
+  double volume = 0.7;           ///< 0 to 1
+  bool has_effects = true;       ///< trails, sparks, nudges, turning pucks, replays, horn
+  bool has_less_motion = false;  ///< nothing of them that moves
+  bool has_music = false;
   bool is_full_screen = false;
   bool is_split = true;  ///< two at one keyboard see the table each from the own end
   WindowPoints window{};

@@ -1,6 +1,9 @@
 // What makes the window everybody's, against golden images: colours, hints, shapes of windows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "game/match/noises.h"
 #include "tests/view/golden_images.h"
 
 namespace rink::view {
@@ -18,6 +21,59 @@ TEST_F(GoldenImages, OfOtherColoursWhoseNamesTheTeamsHave) {
   sight.winner = game::Team::right;
   play(sight, settings);
   expect_golden("red_green");
+}
+
+/// A puck comes from the wall, and a goal falls; the world goes on beside the goal that is shown
+/// again. Without effects, or with less motion, the picture is that of a puck alone.
+TEST_F(GoldenImages, OfAnImpactAndAGoalThatIsShownAgain) {
+  struct Moving final : MatchSource {
+    void advance(double now_s) override {
+      seen.noises.clear();
+      const double t = std::min(0.4, now_s - 10.0), turned_s = 0.25;
+      Thing& puck = seen.things.back();
+      puck.velocity = t < turned_s ? Vector2(1.6, 1.8) : Vector2(1.6, -1.8);
+      puck.position = Vector2(1.3, 1.16) + (t - turned_s) * puck.velocity;
+      ears.listen(seen);
+    }
+    const MatchSight& sight() const override { return seen; }
+    std::uint32_t hand_count() const override { return 1; }
+    void press(std::uint32_t, game::Key, bool) override {}
+    void pause(bool) override {}
+    void rematch() override {}
+    MatchSight seen = match_sight();
+    game::NoiseDetector ears;
+  };
+  Moving* moving = nullptr;
+  Settings settings = shared_camera();
+  const auto begin = [&](bool has_effects, bool has_less_motion) {
+    settings.has_effects = has_effects, settings.has_less_motion = has_less_motion;
+    const auto make = [&](const MatchWish&) {
+      auto match = std::make_unique<Moving>();
+      moving = match.get();
+      return match;
+    };
+    application_ = std::make_unique<Application>(Surroundings{.make_match = make}, settings);
+    now_ = 10.0;
+    application_->play({.kind = MatchWish::Kind::bot, .address = {}});
+    while (now_ < 10.37) frame();
+  };
+  const auto is_as = [&](const std::string& name) {
+    still_ = true;
+    expect_golden(name);
+    still_ = false;
+  };
+  begin(true, false);
+  is_as("impact");
+  for (const bool has_effects : {true, false}) {
+    begin(has_effects, has_effects);
+    is_as("impact_plain");
+  }
+  begin(true, false);
+  moving->seen.score.left = 1;
+  while (now_ < 12.9) frame(now_ > 12.7);
+  is_as("goal_again");
+  tap("space");
+  is_as("goal_skipped");
 }
 
 }  // namespace

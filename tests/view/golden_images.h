@@ -76,7 +76,7 @@ class GoldenImages : public OffscreenTest {
   void frame(bool is_seen = true) {
     application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size_,
                        {target_.framebuffer(), 0, 0, size_.width, size_.height},
-                       now_ += 1.0 / 60.0);
+                       still_ ? now_ : now_ += 1.0 / 60.0);
   }
   void tap(const char* key) {
     for (const bool is_down : {true, false}) {
@@ -128,6 +128,7 @@ class GoldenImages : public OffscreenTest {
   Target target_;
   std::unique_ptr<Application> application_;
   double now_ = 10.0;
+  bool still_ = false;  ///< all frames are of one instant
 };
 
 }  // namespace rink::view

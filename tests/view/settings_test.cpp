@@ -28,6 +28,7 @@ TEST(Settings, ReadBackWhatTheyWrite) {
   settings.dead_zone = 0.5, settings.sensitivity = 2.5;
   settings.window = {800, 1000};
   settings.palette = PaletteKind::no_blue_yellow;
+  settings.has_effects = false, settings.has_less_motion = settings.has_music = true;
   const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
   EXPECT_THAT(read.errors, IsEmpty());
   EXPECT_EQ(read.settings, settings);
