@@ -107,11 +107,12 @@ void add_options(game::Flags& flags, PlayOptions& options) {
                                  "shows which player receives what, Tab or a click about which "
                                  "body")
                          .value_name("HOST:PORT");
-  const auto replay = flags
-                          .option("--replay", options.replay,
-                                  "watch a recorded match: space stops it, left and right seek, "
-                                  "up and down change its speed")
-                          .value_name("FILE");
+  const auto replay =
+      flags
+          .option("--replay", options.replay,
+                  "watch a recorded match: space stops it, left, right and its bar seek, "
+                  "up and down change its speed")
+          .value_name("FILE");
   const std::vector<game::Flag> beginnings{two, bot, host, join, watch, replay};
   for (std::size_t k = 0; k < beginnings.size(); ++k)
     for (std::size_t other = 0; other < beginnings.size(); ++other)

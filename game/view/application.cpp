@@ -53,7 +53,8 @@ void Application::start(const MatchWish& wish) {
   wish_ = wish;
   view_ = {};
   phase_.reset();
-  follows_ = is_told_ = false;
+  follows_ = false;
+  recorded_ = {};
   interest_.is_shown = wish.kind != MatchWish::Kind::peer;  // a player wants to see the game
 }
 
@@ -171,13 +172,15 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   const ViewChoice choice = view(sight, now_s);
   const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots,
              has_settings = menu_.screen() == Menu::Screen::settings;
+  Overlay overlay =
+      sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_);
+  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get()))
+    add_inputs(*replay, palette_of(settings_.palette), overlay);
   const auto picture_from = [&](Viewpoint viewpoint, const Canvas& part) {
     ViewChoice there = choice;
     there.viewpoint = viewpoint;
-    Picture picture = picture_of(
-        sight,
-        sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_),
-        there, static_cast<double>(part.width) / part.height);
+    Picture picture =
+        picture_of(sight, overlay, there, static_cast<double>(part.width) / part.height);
     if (is_behind_menu) picture.board.is_there = false;
     else if (has_motion()) feel_.impacts.add_to(picture);
     if (renderer != nullptr) renderer->draw(picture, part);
@@ -197,16 +200,27 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   words.is_split = has_two;
   if (!is_behind_menu) draw_goal_again(renderer, canvas, words);
   add_hand_words(words, now_s);
-  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) {
-    words.texts.push_back(replay_line(*replay));
-    if (!sight.notice.empty() && !std::exchange(is_told_, true) && surroundings_.notify)
-      surroundings_.notify(wish_.address + ": " + sight.notice);
-  }
+  add_record(choice, static_cast<double>(canvas.width) / canvas.height, words);
   if (is_behind_menu || has_settings) {
     words.texts.clear();
     words.dimming = is_behind_menu ? 0.45f : 0.6f;
   }
   interface.draw(words);
+}
+
+/// Of a recorded match: time, bar and speeds, and once whether it is the game that was recorded.
+void Application::add_record(const ViewChoice& choice, double aspect, Picture& words) {
+  const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get());
+  if (replay == nullptr) return;
+  recorded_.bar.look(*replay);
+  for (Text& text : words.texts)
+    if (text.words == replay->sight().notice) text.y = 0.84f;  // above the bar
+  recorded_.bar.add_to(*replay, palette_of(settings_.palette), words);
+  add_speeds(replay->sight(), choice, aspect, words);
+  words.texts.push_back(replay_line(*replay));
+  const std::string& notice = replay->sight().notice;
+  if (!notice.empty() && !std::exchange(recorded_.is_told, true) && surroundings_.notify)
+    surroundings_.notify(wish_.address + ": " + notice);
 }
 
 /// A goal of a player's own match, in the upper left corner: the match goes on beside it.

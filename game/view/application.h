@@ -15,6 +15,7 @@
 #include "game/view/match_source.h"
 #include "game/view/menu.h"
 #include "game/view/overlays/interest_overlay.h"
+#include "game/view/overlays/replay_view.h"
 #include "game/view/picture_of.h"
 #include "game/view/settings.h"
 #include "game/view/window/event_queue.h"
@@ -95,6 +96,7 @@ class Application {
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
   bool has_motion() const;
+  void add_record(const ViewChoice& choice, double aspect, Picture& words);
   void draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words);
 
   // application_input.cpp
@@ -127,7 +129,11 @@ class Application {
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
   bool follows_ = false;
-  bool is_told_ = false;  ///< whether a replay's result was reported
+  struct Recorded {
+    bool is_told = false;  ///< whether its result was reported
+    ReplayBar bar;
+  };
+  Recorded recorded_;
   Mouse mouse_;
   HandControl hand_;
   WindowSize size_;

@@ -142,6 +142,11 @@ bool Application::hear_replay(KeyCode code) {
 /// inspects a thing.
 void Application::hear_mouse(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
+  if (auto* replay = dynamic_cast<game::ReplayMatch*>(match_.get())) {
+    if (const auto instant = recorded_.bar.hear(event, size_, replay->end()))
+      replay->seek(*instant);
+    if (recorded_.bar.is_held()) return;
+  }
   const bool is_pointer = settings_.control == Control::pointer && match_->hand_count() > 0;
   if (event.kind == Kind::scroll)
     view_.zoom = std::clamp(view_.zoom * std::pow(1.15, event.y), 1.0, 40.0);
