@@ -253,7 +253,7 @@ int main(int count, char** words) {
       "Keys: W A S D and the arrows move the bats (or --control pointer, gamepad), Esc pauses, C "
       "changes the camera, V splits the "
       "screen for two, + and - zoom and F follows from above, M mutes,\n"
-      "F3 shows figures, F11 fills the screen.\n"
+      "F1 shows all keys, F3 figures, F11 fills the screen.\n"
       "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "
       "that ends with an error is reported in the menu and on standard error.");
   return game::run_command(flags, count, words,

@@ -49,6 +49,7 @@ void Application::start(const MatchWish& wish) {
   assert(match != nullptr);
   held_.clear();
   feel_ = {};
+  told_ = {};
   match_ = std::move(match);
   wish_ = wish;
   view_ = {};
@@ -105,6 +106,7 @@ Viewpoint Application::viewpoint_of(std::uint32_t hand) const {
 
 void Application::set_paused(bool is_wanted) {
   release_all();
+  if (is_wanted) use(Hint::pause);
   match_->pause(is_wanted);
   menu_.open(is_wanted ? Menu::Screen::paused : Menu::Screen::none);
 }
@@ -130,9 +132,24 @@ void Application::follow_phase() {
            menu_.screen() == Menu::Screen::none)
     menu_.open(Menu::Screen::paused);
   else if (phase_ == Phase::paused && sight.phase != Phase::paused &&
-           menu_.screen() == Menu::Screen::paused)
+           (menu_.screen() == Menu::Screen::paused || menu_.screen() == Menu::Screen::help))
     menu_.open(Menu::Screen::none);  // a player resumed the match
   phase_ = sight.phase;
+}
+
+/// Whoever used a key once needs no hint of it.
+void Application::use(Hint hint) {
+  if (FirstMinute::use(hint, settings_)) do_wish({MenuWish::Kind::settings_changed, {}});
+}
+
+/// What a player of a match is told, over the picture.
+void Application::tell(double now_s, Picture& words) {
+  const MatchSight& sight = match_->sight();
+  if (match_->hand_count() > 0) {
+    if (told_.first.look(sight, now_s, settings_)) do_wish({MenuWish::Kind::settings_changed, {}});
+    told_.first.add_to(sight, settings_, match_->hand_count() == 1, words);
+  }
+  if (settings_.is_best_of_three) told_.series.add_to(sight, palette_of(settings_.palette), words);
 }
 
 /// Whether effects that move are wanted.
@@ -171,7 +188,8 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   const MatchSight& sight = match_->sight();
   const ViewChoice choice = view(sight, now_s);
   const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots,
-             has_settings = menu_.screen() == Menu::Screen::settings;
+             has_settings =
+                 menu_.screen() == Menu::Screen::settings || menu_.screen() == Menu::Screen::help;
   Overlay overlay =
       sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_);
   if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get()))
@@ -198,7 +216,10 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
     words = picture_from(choice.viewpoint, canvas);
   }
   words.is_split = has_two;
-  if (!is_behind_menu) draw_goal_again(renderer, canvas, words);
+  if (!is_behind_menu) {
+    tell(now_s, words);
+    draw_goal_again(renderer, canvas, words);
+  }
   add_hand_words(words, now_s);
   add_record(choice, static_cast<double>(canvas.width) / canvas.height, words);
   if (is_behind_menu || has_settings) {
@@ -265,6 +286,7 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   move_hand();
   match_->advance(now_s);
   follow_phase();
+  told_.series.look(match_->sight());
   if (has_motion() && wish_.kind != MatchWish::Kind::bots) {
     feel_.impacts.look(match_->sight(), now_s);
     if (wish_.kind != MatchWish::Kind::replay) feel_.replay.look(match_->sight(), now_s);

@@ -10,6 +10,7 @@
 
 #include "game/view/feel/goal_replay.h"
 #include "game/view/feel/impact_effects.h"
+#include "game/view/first_minute.h"
 #include "game/view/hand_control.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
@@ -81,6 +82,11 @@ class Application {
     double last_s = -1.0, frame_s = 1.0 / 60.0;  ///< the last frame, and how long one takes
   };
 
+  struct Told {
+    FirstMinute first;
+    Series series;
+  };
+
   struct Feel {
     ImpactEffects impacts;
     GoalReplay replay;
@@ -96,6 +102,8 @@ class Application {
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
   bool has_motion() const;
+  void use(Hint hint);
+  void tell(double now_s, Picture& words);
   void add_record(const ViewChoice& choice, double aspect, Picture& words);
   void draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words);
 
@@ -139,6 +147,7 @@ class Application {
   WindowSize size_;
   Figures figures_;
   Feel feel_;
+  Told told_;
   bool wants_to_quit_ = false;
 };
 

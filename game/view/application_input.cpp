@@ -72,6 +72,11 @@ bool Application::hear_command(KeyCode code) {
     case GLFW_KEY_I:
       interest_.is_shown = !interest_.is_shown;
       return true;
+    case GLFW_KEY_F1:
+      set_paused(true);
+      menu_.open(Menu::Screen::help);
+      use(Hint::help);
+      return true;
     case GLFW_KEY_V:
       set_split(!is_split());
       return true;
@@ -81,6 +86,7 @@ bool Application::hear_command(KeyCode code) {
       return true;
     case GLFW_KEY_C:
       release_all();
+      use(Hint::camera);
       chosen_viewpoint_ = is_split()
                               ? Viewpoint::side
                               : static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
@@ -248,6 +254,7 @@ void Application::press(KeyCode code, const Bound& meaning) {
       held_, [&](const HeldKey& held) { return held.hand == hand && held.key == key; });
   held_.push_back({code, hand, key});
   if (!was_down) match_->press(hand, key, true);
+  if (match_->sight().phase == Phase::playing) use(Hint::move);
 }
 
 void Application::release(KeyCode code) {

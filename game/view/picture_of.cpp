@@ -62,14 +62,6 @@ Scoreboard board_of(const MatchSight& sight, Viewpoint viewpoint) {
   return board;
 }
 
-/// Players of a network match have no names: one is you. Teams without a name are called by their
-/// colour.
-std::string name_of(const MatchSight& sight, game::Team team, const Palette& palette) {
-  if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
-  const std::string& name = team == game::Team::left ? sight.left_name : sight.right_name;
-  return name == "left" ? palette.left_name : name == "right" ? palette.right_name : name;
-}
-
 /// "RED WINS", "YOU WIN".
 std::string victory(std::string name) {
   const bool is_you = name == "You";
@@ -196,6 +188,12 @@ void add_names(const MatchSight& sight, const ViewChoice& choice, std::vector<Te
 }
 
 }  // namespace
+
+std::string name_of(const MatchSight& sight, game::Team team, const Palette& palette) {
+  if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
+  const std::string& name = team == game::Team::left ? sight.left_name : sight.right_name;
+  return name == "left" ? palette.left_name : name == "right" ? palette.right_name : name;
+}
 
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect) {
   const auto length = static_cast<float>(field.length), width = static_cast<float>(field.width);

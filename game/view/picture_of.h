@@ -21,6 +21,10 @@ struct ViewChoice {
   bool has_effects = true;  ///< what is fast has a streak
 };
 
+/// Players of a network match have no names: one is you. Teams without a name are called by their
+/// colour.
+std::string name_of(const MatchSight& sight, game::Team team, const Palette& palette);
+
 /// `aspect` is width by height of the window.
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect);
 

@@ -31,7 +31,8 @@ constexpr std::array switches{Switch{"mute", &Settings::is_muted},
                               Switch{"split_screen", &Settings::is_split},
                               Switch{"effects", &Settings::has_effects},
                               Switch{"reduced_motion", &Settings::has_less_motion},
-                              Switch{"music", &Settings::has_music}};
+                              Switch{"music", &Settings::has_music},
+                              Switch{"best_of_three", &Settings::is_best_of_three}};
 
 class Reader {
  public:
@@ -76,6 +77,8 @@ class Reader {
     } else if (key == "version") {
     } else if (key == "window") {
       read_window(node);
+    } else if (key == "hints_seen") {
+      read_hints(node);
     } else if (key == "colours") {
       read_palette(node);
     } else if (key == "volume") {
@@ -94,9 +97,11 @@ class Reader {
     } else if (!is_newer_) {
       std::string all = "version, ";
       for (const Switch& each : switches) all += std::string(each.name) + ", ";
-      problem(node, "there is no setting '" + std::string(key) + "'; there are: " + all +
-                        "volume, window, colours, control, dead_zone, sensitivity, keys.left, "
-                        "keys.right");
+      problem(
+          node,
+          "there is no setting '" + std::string(key) + "'; there are: " + all +
+              "volume, window, colours, hints_seen, control, dead_zone, sensitivity, keys.left, "
+              "keys.right");
     }
   }
 
@@ -116,6 +121,19 @@ class Reader {
       }
     }
     problem(node, "window must be [width, height], from 320 and 240 to 8192");
+  }
+
+  void read_hints(const toml::node& node) {
+    const toml::array* names = node.as_array();
+    if (names == nullptr) return problem(node, "hints_seen must be a list of names in quotes");
+    for (const toml::node& each : *names) {
+      const auto name = each.value_exact<std::string>();
+      const auto found = std::ranges::find(hint_names, name ? std::string_view(*name) : "");
+      if (found != hint_names.end())
+        read_.settings.hints_seen[static_cast<std::size_t>(found - hint_names.begin())] = true;
+      else if (!is_newer_)
+        problem(each, "there is no such hint; there are: how_to_play, move, pause, camera, help");
+    }
   }
 
   void read_palette(const toml::node& node) {
@@ -236,6 +254,11 @@ std::string settings_text(const Settings& settings) {
        << control_names[static_cast<std::size_t>(settings.control)]
        << "\"  # keys, pointer or gamepad\ndead_zone = " << settings.dead_zone
        << "\nsensitivity = " << settings.sensitivity << '\n';
+  std::string seen;
+  for (std::size_t hint = 0; hint < hint_names.size(); ++hint)
+    if (settings.hints_seen[hint])
+      seen += (seen.empty() ? "\"" : ", \"") + std::string(hint_names[hint]) + '"';
+  text << "hints_seen = [" << seen << "]\n";
   for (std::size_t player = 0; player < player_tables.size(); ++player) {
     text << "\n[keys." << player_tables[player] << "]\n";
     for (const game::Key key : game::all_keys)

@@ -41,6 +41,11 @@ struct WindowPoints {
 };
 inline constexpr WindowPoints window_least{320, 240}, window_most{8192, 8192};
 
+/// What is told once: in the file by these names.
+enum class Hint : std::uint8_t { how_to_play, move, pause, camera, help };
+inline constexpr std::array<const char*, 5> hint_names{"how_to_play", "move", "pause", "camera",
+                                                       "help"};
+
 struct Settings {
   std::array<KeySet, 2> keys;       ///< of the left and the right player
   Control control = Control::keys;  ///< of the only player, or of the left of two
@@ -51,6 +56,8 @@ struct Settings {
   bool has_effects = true;       ///< trails, sparks, nudges, turning pucks, replays, horn
   bool has_less_motion = false;  ///< nothing of them that moves
   bool has_music = false;
+  bool is_best_of_three = false;
+  std::array<bool, hint_names.size()> hints_seen{};  ///< by Hint
   bool is_full_screen = false;
   bool is_split = true;  ///< two at one keyboard see the table each from the own end
   WindowPoints window{};

@@ -23,6 +23,33 @@ TEST_F(GoldenImages, OfOtherColoursWhoseNamesTheTeamsHave) {
   expect_golden("red_green");
 }
 
+TEST_F(GoldenImages, OfTheFirstMinuteAllKeysAndABestOfThree) {
+  MatchSight sight = match_sight();
+  sight.phase = Phase::countdown;
+  sight.remaining_s = 1.7;
+  sight.own_team = game::Team::left;
+  Settings settings;
+  play(sight, settings);
+  expect_golden("how_to_play");
+  settings.hints_seen[0] = true;
+  sight.phase = Phase::playing;
+  play(sight, settings);
+  expect_golden("hints");
+  tap("f1");
+  expect_golden("all_keys");
+  tap("escape");
+  EXPECT_EQ(application_->sight().phase, Phase::paused) << "as by Esc";
+  tap("escape");
+  expect_golden("hints_used");
+  settings = shared_camera();
+  settings.is_best_of_three = true;
+  sight.phase = Phase::over;
+  sight.own_team.reset();
+  sight.winner = game::Team::left;
+  play(sight, settings);
+  expect_golden("best_of_three");
+}
+
 /// A puck comes from the wall, and a goal falls; the world goes on beside the goal that is shown
 /// again. Without effects, or with less motion, the picture is that of a puck alone.
 TEST_F(GoldenImages, OfAnImpactAndAGoalThatIsShownAgain) {

@@ -67,8 +67,14 @@ class GoldenImages : public OffscreenTest {
     open(sight, settings);
     application_->play({.kind = MatchWish::Kind::two, .address = {}});
   }
-  static Settings shared_camera() {
+  /// Of a player who needs no hints.
+  static Settings known() {
     Settings settings;
+    settings.hints_seen.fill(true);
+    return settings;
+  }
+  static Settings shared_camera() {
+    Settings settings = known();
     settings.is_split = false;
     return settings;
   }

@@ -141,7 +141,7 @@ TEST_F(GoldenImages, OfTheLastSecondsOfAPossession) {
   expect_golden("shoot");
   sight.own_team.reset();
   sight.left_name = "left", sight.right_name = "right";
-  play(sight, Settings());
+  play(sight, known());
   expect_golden("shoot_split");
   sight.holder.reset();
   sight.served = game::Team::right;
@@ -196,7 +196,7 @@ TEST_F(GoldenImages, OfACrowdWithItsOverlay) {
 TEST_F(GoldenImages, OfTwoWhoShareAKeyboardEachFromTheOwnEnd) {
   MatchSight sight = match_sight();
   sight.score = {3, 1};
-  play(sight, Settings());
+  play(sight, known());
   expect_golden("split");
   tap("v");
   expect_golden("side");
@@ -212,7 +212,7 @@ TEST_F(GoldenImages, OfOtherWindowsAndScales) {
   for (int i = 0; i < 5; ++i) tap("down");
   tap("enter");
   expect_golden("settings_old_shape");
-  play(match_sight(), Settings());
+  play(match_sight(), known());
   expect_golden("split_old_shape");
   resize({640, 360, 2.0});
   MatchSight sight = match_sight();
@@ -234,7 +234,7 @@ TEST_F(GoldenImages, OfAReplay) {
   application_ = std::make_unique<Application>(
       Surroundings{.make_match =
                        [&](const MatchWish&) { return std::make_unique<game::ReplayMatch>(file); }},
-      Settings());
+      known());
   application_->play({.kind = MatchWish::Kind::replay, .address = file});
   frame(false);
   tap("right");
@@ -255,7 +255,7 @@ TEST_F(GoldenImages, GoBackToTheMenuWhenTheConnectionIsLost) {
                          return std::make_unique<StillMatch>(made++ == 0 ? match_sight() : sight);
                        },
                    .notify = [&](const std::string& words) { told = words; }},
-      Settings());
+      known());
   application_->play({.kind = MatchWish::Kind::join, .address = "localhost:1"});
   frame();
   EXPECT_TRUE(application_->is_in_menu());

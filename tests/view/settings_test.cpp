@@ -28,6 +28,7 @@ TEST(Settings, ReadBackWhatTheyWrite) {
   settings.dead_zone = 0.5, settings.sensitivity = 2.5;
   settings.window = {800, 1000};
   settings.palette = PaletteKind::no_blue_yellow;
+  settings.is_best_of_three = settings.hints_seen[1] = settings.hints_seen[4] = true;
   settings.has_effects = false, settings.has_less_motion = settings.has_music = true;
   const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
   EXPECT_THAT(read.errors, IsEmpty());
@@ -72,6 +73,10 @@ TEST(Settings, OfTheWindowAndItsColoursAreNamedWhereTheyAreWrong) {
     EXPECT_THAT(parse_settings(std::string("window = ") + window + "\n", "play.toml").errors,
                 ElementsAre(HasSubstr("window must be [width, height]")))
         << window;
+  for (const char* hints : {"\"move\"", "[\"jump\"]", "[3]"})
+    EXPECT_THAT(parse_settings(std::string("hints_seen = ") + hints + "\n", "play.toml").errors,
+                ElementsAre(HasSubstr("play.toml:1: ")))
+        << hints;
   EXPECT_THAT(
       parse_settings("colours = \"pink\"\n", "play.toml").errors,
       ElementsAre(HasSubstr("colours must be \"red-blue\", \"orange-blue\" or \"red-green\"")));
