@@ -162,7 +162,9 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   else if (sight.own_team)
     view_.viewpoint =
         *sight.own_team == game::Team::left ? Viewpoint::left_end : Viewpoint::right_end;
-  else view_.viewpoint = sight.things.size() > 60 ? Viewpoint::above : Viewpoint::side;
+  else if (sight.things.size() > 60) view_.viewpoint = Viewpoint::above;
+  else  // the table is twice as long as wide
+    view_.viewpoint = size_.height > size_.width ? Viewpoint::left_end : Viewpoint::side;
   if (follows_) {
     if (const Thing* followed = followed_by(sight, interest_))
       view_.centre =
@@ -178,7 +180,8 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   view_.shows_link = figures_.are_shown;
   view_.frames_per_s = 1.0 / figures_.frame_s;
   ViewChoice choice = view_;
-  if (wish_.kind == MatchWish::Kind::bots) choice.viewpoint = Viewpoint::side;
+  if (wish_.kind == MatchWish::Kind::bots && size_.height <= size_.width)
+    choice.viewpoint = Viewpoint::side;
   return choice;
 }
 

@@ -10,6 +10,7 @@ namespace rink::view {
 namespace {
 
 std::string keys_of(const KeySet& keys) {
+  if (keys == default_keys()[1]) return "the arrows";
   std::string words;
   for (const game::Key key : {game::Key::up, game::Key::left, game::Key::down, game::Key::right}) {
     std::string name = key_code_name(keys[static_cast<std::size_t>(key)]).value_or("?");
@@ -115,8 +116,7 @@ void Series::add_to(const MatchSight& sight, const Palette& palette, Picture& wo
     const std::string name = name_of(sight, *team, palette);
     line = name + (name == "You" ? " win" : " wins") + " the best of three " + count;
   }
-  words.texts.push_back(
-      {.words = line, .y = is_over ? 0.605f : 0.2f, .size = 0.042f, .has_plate = true});
+  words.texts.push_back({.words = line, .y = 0.605f, .size = 0.042f, .has_plate = true});
 }
 
 }  // namespace rink::view

@@ -28,7 +28,7 @@ TEST(TheFirstMinute, TellsTheRulesInThreeLinesUntilTheyWereSeenForSixSeconds) {
   EXPECT_FALSE(first.look(sight, 1.0, settings));
   EXPECT_EQ(told(first, sight, settings),
             "Shoot the puck into the goal across, and guard your own\n"
-            "W A S D or up left down right move your bat; each stays in its half\n"
+            "W A S D or the arrows move your bat; each stays in its half\n"
             "Who scores 5 goals first wins\n");
   sight.phase = Phase::playing;
   for (double now = 4.0; now < 4.0 + FirstMinute::rules_s; now += 0.5) {

@@ -50,6 +50,16 @@ TEST_F(GoldenImages, OfTheFirstMinuteAllKeysAndABestOfThree) {
   expect_golden("best_of_three");
 }
 
+/// A window to watch in that is higher than wide shows the table from an end, along its length, and
+/// more of it than of the floor.
+TEST_F(GoldenImages, OfAnUprightWindow) {
+  resize({300, 480, 1.0});
+  MatchSight sight = match_sight();
+  sight.score = {3, 1};
+  play(sight);
+  expect_golden("upright");
+}
+
 /// A puck comes from the wall, and a goal falls; the world goes on beside the goal that is shown
 /// again. Without effects, or with less motion, the picture is that of a puck alone.
 TEST_F(GoldenImages, OfAnImpactAndAGoalThatIsShownAgain) {
