@@ -107,11 +107,12 @@ void add_options(game::Flags& flags, PlayOptions& options) {
                                  "shows which player receives what, Tab or a click about which "
                                  "body")
                          .value_name("HOST:PORT");
-  const auto replay = flags
-                          .option("--replay", options.replay,
-                                  "watch a recorded match: space stops it, left and right seek, "
-                                  "up and down change its speed")
-                          .value_name("FILE");
+  const auto replay =
+      flags
+          .option("--replay", options.replay,
+                  "watch a recorded match: space stops it, left, right and its bar seek, "
+                  "up and down change its speed")
+          .value_name("FILE");
   const std::vector<game::Flag> beginnings{two, bot, host, join, watch, replay};
   for (std::size_t k = 0; k < beginnings.size(); ++k)
     for (std::size_t other = 0; other < beginnings.size(); ++other)
@@ -144,7 +145,9 @@ void add_options(game::Flags& flags, PlayOptions& options) {
               "or touch, which the bat follows; gamepad, its left stick. Keys go on beside it "
               "(default: the setting control)")
       .check(one_of({"keys", "pointer", "gamepad"}));
-  flags.option("--size", options.size, "size of the window")
+  flags
+      .option("--size", options.size,
+              "size of the window (without it: as it was when it was closed last)")
       .value_name("WIDTHxHEIGHT")
       .shows_default();
   flags.flag("--full-screen", options.is_full_screen, "fill the screen; F11 changes it");

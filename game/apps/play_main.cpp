@@ -12,6 +12,7 @@
 #include "game/net/interrupt.h"
 #include "game/version/version.h"
 #include "game/view/application.h"
+#include "game/view/feel/less_motion.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "game/view/script.h"
@@ -53,6 +54,9 @@ class Process {
     }
   }
 
+  /// As large as it was when it was closed last.
+  void run_in_window();
+  /// The same with another size.
   void run_in_window(const view::WindowSize& size);
   void run_offscreen(const view::WindowSize& size);
 
@@ -82,6 +86,7 @@ class Process {
     view::write_png(file, view::read_pixels(framebuffer, size.width, size.height));
   }
   void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
+  void save(const view::Settings& settings);
 
   view::PlayOptions options_;
   std::string settings_file_, errors_;
@@ -102,24 +107,29 @@ void Process::open(view::Window* window) {
     return view::make_match(wish, options_);
   };
   surroundings.notify = notify;
+  surroundings.wants_less_motion = view::wants_less_motion(view::desktop_settings_folder());
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();
     surroundings.set_full_screen = [window](bool is_wanted) { window->set_full_screen(is_wanted); };
     surroundings.sound = [this](const std::vector<view::Noise>& noises,
                                 const view::Settings& settings) {
-      sounds_->play(noises, settings.is_muted ? 0.0 : settings.volume);
+      sounds_->play(noises, {.volume = settings.is_muted ? 0.0 : settings.volume,
+                             .has_horn = settings.has_effects,
+                             .has_music = settings.has_music && settings.has_effects});
     };
   }
-  surroundings.save_settings = [this](const view::Settings& settings) {
-    if (std::exchange(is_misread_, false))
-      if (const auto place = view::set_settings_aside(settings_file_)) notify(*place);
-    if (const auto problem = view::write_settings(settings, settings_file_)) notify(*problem);
-  };
+  surroundings.save_settings = [this](const view::Settings& settings) { save(settings); };
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
   if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
   if (options_.shows_figures) application_->show_figures();
   if (!errors_.empty()) application_->explain(errors_);
   if (const auto wish = view::wish_of(options_)) application_->play(*wish);
+}
+
+void Process::save(const view::Settings& settings) {
+  if (std::exchange(is_misread_, false))
+    if (const auto place = view::set_settings_aside(settings_file_)) notify(*place);
+  if (const auto problem = view::write_settings(settings, settings_file_)) notify(*problem);
 }
 
 void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen) {
@@ -128,6 +138,10 @@ void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now,
                                                      // script that takes no picture does not wait
   application_->draw(*interface_, is_seen ? renderer_.get() : nullptr, size,
                      {framebuffer, 0, 0, size.width, size.height}, now);
+}
+
+void Process::run_in_window() {
+  run_in_window({settings_.window.width, settings_.window.height, 1.0});
 }
 
 /// At one instant keys come first, then the frame, then its picture.
@@ -146,6 +160,7 @@ void Process::run_in_window(const view::WindowSize& size) {
     // silent.
     const view::WindowSize now_size = window.size();
     const bool is_seen = now_size.width > 0 && now_size.height > 0;
+    if (is_seen && !window.is_full_screen()) application_->remember_window(window.points());
     draw(is_seen ? now_size : size, 0, begin_s, is_seen);
     if (is_seen) {
       for (const view::ScriptStep& step : due)
@@ -156,6 +171,7 @@ void Process::run_in_window(const view::WindowSize& size) {
     const double left_s = shortest_frame_s - (now_s() - begin_s);
     if (left_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
   }
+  if (application_->settings().window != settings_.window) save(application_->settings());
 }
 
 /// Time is counted in frames, so the same script gives the same pictures; frames of which no
@@ -209,7 +225,8 @@ game::ExitStatus play(const view::PlayOptions& options) {
                           "nobody could see it or press a key; give a --script or a --screenshot");
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
-  else process.run_in_window(*size);
+  else if (options.given.count("--size") != 0) process.run_in_window(*size);
+  else process.run_in_window();
   return game::is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
 }
 
@@ -236,7 +253,7 @@ int main(int count, char** words) {
       "Keys: W A S D and the arrows move the bats (or --control pointer, gamepad), Esc pauses, C "
       "changes the camera, V splits the "
       "screen for two, + and - zoom and F follows from above, M mutes,\n"
-      "F3 shows figures, F11 fills the screen.\n"
+      "F1 shows all keys, F3 figures, F11 fills the screen.\n"
       "Exit status: 0 done, 1 failed, 2 bad flag or file, 18 no display, 130 interrupted. A match "
       "that ends with an error is reported in the menu and on standard error.");
   return game::run_command(flags, count, words,

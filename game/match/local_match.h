@@ -22,7 +22,7 @@ struct LocalMatchSettings {
   std::uint64_t seed = 1;  ///< of the bots; each rematch takes the next
   std::vector<std::string> players{
       "hand", "hand"};  ///< of the left and the right bat: Playing::hand or a player's kind
-  std::string left_name = "Red", right_name = "Blue";
+  std::string left_name = "left", right_name = "right";
   FlowTimes times{};
   std::string scene_text{};  ///< the scene's file, so that records need no other
 };

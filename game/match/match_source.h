@@ -22,6 +22,7 @@ struct Thing {
   Team team = Team::none;
   Vector2 position{0.0, 0.0}, velocity{0.0, 0.0};  ///< m, m/s
   Vector2 half_extent{0.0, 0.0};                   ///< m; both the radius for discs
+  double spin = 0.0;                               ///< of a puck [rad/s]; 0 where it is not known
 };
 
 /// A sound to play.
@@ -37,8 +38,10 @@ struct Noise {
     win
   };
   Kind kind = Kind::puck_on_wall;
-  double strength = 1.0;  ///< 0 to 1
-  double place = 0.5;     ///< along the field, 0 to 1
+  double strength = 1.0;                   ///< 0 to 1
+  double place = 0.5;                      ///< along the field, 0 to 1
+  Vector2 at{0.0, 0.0}, change{0.0, 0.0};  ///< of an impact: the puck's centre [m], and how its
+                                           ///< velocity changed [m/s]
 };
 
 /// Figures of the connection; shown on request.

@@ -60,7 +60,8 @@ void NoiseDetector::hear_pucks(MatchSight& sight) const {
     const double change = (puck.velocity - before_[k].velocity).norm();
     if (change < quietest || was_put_elsewhere || is_out) continue;
     sight.noises.push_back({kind_of(puck, sight.things), std::min(1.0, change / loudest),
-                            std::clamp(puck.position.x() / sight.field.length, 0.0, 1.0)});
+                            std::clamp(puck.position.x() / sight.field.length, 0.0, 1.0),
+                            puck.position, puck.velocity - before_[k].velocity});
   }
 }
 

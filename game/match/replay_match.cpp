@@ -34,6 +34,31 @@ void ReplayMatch::rematch() {
   is_paused_ = false;
 }
 
+void ReplayMatch::stop_after_win() {
+  if (!replay_.game().is_over()) {
+    won_at_.reset();
+    has_stopped_ = false;
+  } else if (!won_at_) {
+    won_at_ = wanted_;
+  } else if (!has_stopped_ && wanted_ >= *won_at_ + after_win_s && wanted_ < end()) {
+    is_paused_ = has_stopped_ = true;
+  }
+}
+
+std::vector<ReplayMatch::Input> ReplayMatch::inputs() const {
+  std::vector<Input> inputs(replay_.game().player_count());
+  for (const InputEvent& event : replay_.log().events) {
+    if (event.time > sight_.time) break;
+    if (event.player >= inputs.size()) continue;
+    Input& input = inputs[event.player];
+    if (event.kind == InputKind::push) input.push = event.push;
+    else if (event.kind == InputKind::key_down || event.kind == InputKind::key_up)
+      input.keys.set(event.key, event.kind == InputKind::key_down);
+    else input = {};
+  }
+  return inputs;
+}
+
 void ReplayMatch::advance(double now_s) {
   assert((!has_begun_ || now_s >= now_s_) && "real time never falls");
   if (has_begun_ && !is_paused_ && !is_sought_)
@@ -42,6 +67,7 @@ void ReplayMatch::advance(double now_s) {
   now_s_ = now_s;
   assert(wanted_ >= 0.0 && wanted_ <= end());
   replay_.seek(wanted_);
+  stop_after_win();
   game_sight_.show(replay_.game(), sight_);
   sight_.phase =
       wanted_ == end() ? MatchPhase::over : MatchPhase::playing;  // a stopped replay is still shown

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "game/control/replay.h"
 #include "game/match/match_source.h"
@@ -12,6 +14,9 @@ namespace rink::game {
 
 class ReplayMatch final : public MatchSource {
  public:
+  /// A record that goes on longer after the win stops there; resumed, it is played to its end.
+  static constexpr double after_win_s = 2.0;
+
   /// Throws SceneError, naming file, line and what is wrong, if the record is truncated, altered,
   /// of another version or incomplete.
   explicit ReplayMatch(const std::filesystem::path& file);
@@ -31,16 +36,25 @@ class ReplayMatch final : public MatchSource {
   void set_speed(double speed);
   double speed() const { return speed_; }
   bool is_paused() const { return is_paused_; }
+  /// What each player does at the shown instant.
+  struct Input {
+    KeysHeld keys;
+    Push push;
+  };
+  std::vector<Input> inputs() const;
   /// Whether the game ended in the recorded state; nothing before the end was reached.
   std::optional<bool> is_as_recorded() const { return replay_.is_as_recorded(); }
 
  private:
+  void stop_after_win();
   static Replay read(const std::filesystem::path& file);
 
   Replay replay_;
   double wanted_ = 0.0;  ///< where to be [s]
   double now_s_ = 0.0, speed_ = 1.0;
   bool has_begun_ = false, is_paused_ = false, is_sought_ = false;
+  std::optional<double> won_at_;  ///< when the match was seen to be won [s]
+  bool has_stopped_ = false;      ///< after the win
   MatchSight sight_;
   GameSight game_sight_;
   NoiseDetector noises_;

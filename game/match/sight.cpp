@@ -76,6 +76,7 @@ void GameSight::show(const Game& game, MatchSight& sight) {
       Thing& thing = sight.things[place_of_[id.index]];
       thing.position = game.position(id);
       thing.velocity = game.velocity(id);
+      if (thing.kind == physics::BodyKind::puck) thing.spin = game.simulator().spin(id);
     }
   if constexpr (checks_whole_structures) check(sight);
 }
@@ -99,7 +100,10 @@ void GameSight::show_all(const Game& game, MatchSight& sight) {
                             .team = entity.team,
                             .position = game.position(entity.id),
                             .velocity = game.velocity(entity.id),
-                            .half_extent = entity.half_extent});
+                            .half_extent = entity.half_extent,
+                            .spin = entity.kind == physics::BodyKind::puck
+                                        ? static_cast<double>(game.simulator().spin(entity.id))
+                                        : 0.0});
   }
   shown_ = sight.things.size();
   is_over_ = game.is_over();

@@ -48,11 +48,14 @@ void Application::start(const MatchWish& wish) {
   std::unique_ptr<MatchSource> match = surroundings_.make_match(wish);
   assert(match != nullptr);
   held_.clear();
+  feel_ = {};
+  told_ = {};
   match_ = std::move(match);
   wish_ = wish;
   view_ = {};
   phase_.reset();
-  follows_ = is_told_ = false;
+  follows_ = false;
+  recorded_ = {};
   interest_.is_shown = wish.kind != MatchWish::Kind::peer;  // a player wants to see the game
 }
 
@@ -103,6 +106,7 @@ Viewpoint Application::viewpoint_of(std::uint32_t hand) const {
 
 void Application::set_paused(bool is_wanted) {
   release_all();
+  if (is_wanted) use(Hint::pause);
   match_->pause(is_wanted);
   menu_.open(is_wanted ? Menu::Screen::paused : Menu::Screen::none);
 }
@@ -128,9 +132,29 @@ void Application::follow_phase() {
            menu_.screen() == Menu::Screen::none)
     menu_.open(Menu::Screen::paused);
   else if (phase_ == Phase::paused && sight.phase != Phase::paused &&
-           menu_.screen() == Menu::Screen::paused)
+           (menu_.screen() == Menu::Screen::paused || menu_.screen() == Menu::Screen::help))
     menu_.open(Menu::Screen::none);  // a player resumed the match
   phase_ = sight.phase;
+}
+
+/// Whoever used a key once needs no hint of it.
+void Application::use(Hint hint) {
+  if (FirstMinute::use(hint, settings_)) do_wish({MenuWish::Kind::settings_changed, {}});
+}
+
+/// What a player of a match is told, over the picture.
+void Application::tell(double now_s, Picture& words) {
+  const MatchSight& sight = match_->sight();
+  if (match_->hand_count() > 0) {
+    if (told_.first.look(sight, now_s, settings_)) do_wish({MenuWish::Kind::settings_changed, {}});
+    told_.first.add_to(sight, settings_, match_->hand_count() == 1, words);
+  }
+  if (settings_.is_best_of_three) told_.series.add_to(sight, palette_of(settings_.palette), words);
+}
+
+/// Whether effects that move are wanted.
+bool Application::has_motion() const {
+  return settings_.has_effects && !settings_.has_less_motion && !surroundings_.wants_less_motion;
 }
 
 ViewChoice Application::view(const MatchSight& sight, double now_s) {
@@ -138,7 +162,9 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   else if (sight.own_team)
     view_.viewpoint =
         *sight.own_team == game::Team::left ? Viewpoint::left_end : Viewpoint::right_end;
-  else view_.viewpoint = sight.things.size() > 60 ? Viewpoint::above : Viewpoint::side;
+  else if (sight.things.size() > 60) view_.viewpoint = Viewpoint::above;
+  else  // the table is twice as long as wide
+    view_.viewpoint = size_.height > size_.width ? Viewpoint::left_end : Viewpoint::side;
   if (follows_) {
     if (const Thing* followed = followed_by(sight, interest_))
       view_.centre =
@@ -146,12 +172,16 @@ ViewChoice Application::view(const MatchSight& sight, double now_s) {
   } else if (view_.zoom <= 1.0) {
     view_.centre = {0.5, 0.5};
   }
-  assert(frame_s_ > 0.0);
-  if (last_s_ >= 0.0 && now_s > last_s_) frame_s_ += 0.05 * (now_s - last_s_ - frame_s_);
-  view_.shows_link = shows_figures_;
-  view_.frames_per_s = 1.0 / frame_s_;
+  assert(figures_.frame_s > 0.0);
+  if (figures_.last_s >= 0.0 && now_s > figures_.last_s)
+    figures_.frame_s += 0.05 * (now_s - figures_.last_s - figures_.frame_s);
+  view_.palette = settings_.palette;
+  view_.has_effects = has_motion();
+  view_.shows_link = figures_.are_shown;
+  view_.frames_per_s = 1.0 / figures_.frame_s;
   ViewChoice choice = view_;
-  if (wish_.kind == MatchWish::Kind::bots) choice.viewpoint = Viewpoint::side;
+  if (wish_.kind == MatchWish::Kind::bots && size_.height <= size_.width)
+    choice.viewpoint = Viewpoint::side;
   return choice;
 }
 
@@ -161,15 +191,19 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   const MatchSight& sight = match_->sight();
   const ViewChoice choice = view(sight, now_s);
   const bool is_behind_menu = wish_.kind == MatchWish::Kind::bots,
-             has_settings = menu_.screen() == Menu::Screen::settings;
+             has_settings =
+                 menu_.screen() == Menu::Screen::settings || menu_.screen() == Menu::Screen::help;
+  Overlay overlay =
+      sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_);
+  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get()))
+    add_inputs(*replay, palette_of(settings_.palette), overlay);
   const auto picture_from = [&](Viewpoint viewpoint, const Canvas& part) {
     ViewChoice there = choice;
     there.viewpoint = viewpoint;
-    Picture picture = picture_of(
-        sight,
-        sight.zones ? zones_overlay(sight, interest_.is_shown) : interest_overlay(sight, interest_),
-        there, static_cast<double>(part.width) / part.height);
+    Picture picture =
+        picture_of(sight, overlay, there, static_cast<double>(part.width) / part.height);
     if (is_behind_menu) picture.board.is_there = false;
+    else if (has_motion()) feel_.impacts.add_to(picture);
     if (renderer != nullptr) renderer->draw(picture, part);
     return picture;
   };
@@ -185,12 +219,12 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
     words = picture_from(choice.viewpoint, canvas);
   }
   words.is_split = has_two;
-  add_hand_words(words, now_s);
-  if (const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get())) {
-    words.texts.push_back(replay_line(*replay));
-    if (!sight.notice.empty() && !std::exchange(is_told_, true) && surroundings_.notify)
-      surroundings_.notify(wish_.address + ": " + sight.notice);
+  if (!is_behind_menu) {
+    tell(now_s, words);
+    draw_goal_again(renderer, canvas, words);
   }
+  add_hand_words(words, now_s);
+  add_record(choice, static_cast<double>(canvas.width) / canvas.height, words);
   if (is_behind_menu || has_settings) {
     words.texts.clear();
     words.dimming = is_behind_menu ? 0.45f : 0.6f;
@@ -198,9 +232,56 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   interface.draw(words);
 }
 
+/// Of a recorded match: time, bar and speeds, and once whether it is the game that was recorded.
+void Application::add_record(const ViewChoice& choice, double aspect, Picture& words) {
+  const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get());
+  if (replay == nullptr) return;
+  recorded_.bar.look(*replay);
+  for (Text& text : words.texts)
+    if (text.words == replay->sight().notice) text.y = 0.84f;  // above the bar
+  recorded_.bar.add_to(*replay, palette_of(settings_.palette), words);
+  add_speeds(replay->sight(), choice, aspect, words);
+  words.texts.push_back(replay_line(*replay));
+  const std::string& notice = replay->sight().notice;
+  if (!notice.empty() && !std::exchange(recorded_.is_told, true) && surroundings_.notify)
+    surroundings_.notify(wish_.address + ": " + notice);
+}
+
+/// A goal of a player's own match, in the upper left corner: the match goes on beside it.
+void Application::draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words) {
+  const MatchSight* sight = feel_.replay.shown();
+  if (sight == nullptr || match_->hand_count() != 1) return;
+  constexpr float left = 0.02f, top = 0.09f, part = 0.3f;
+  const int width = static_cast<int>(part * static_cast<float>(canvas.width)),
+            height = std::min(width * 9 / 16, canvas.height / 3),
+            x = static_cast<int>(left * static_cast<float>(canvas.width)),
+            y = canvas.height - static_cast<int>(top * static_cast<float>(canvas.height)) - height;
+  Picture picture =
+      picture_of(*sight, {}, {.palette = settings_.palette}, static_cast<double>(width) / height);
+  picture.board.is_there = false;
+  if (renderer != nullptr)
+    renderer->draw(picture, {canvas.framebuffer, canvas.x + x, canvas.y + y, width, height});
+  const auto of_width = [&](int pixels) {
+    return static_cast<float>(pixels) / static_cast<float>(canvas.width);
+  };
+  const auto of_height = [&](int pixels) {
+    return static_cast<float>(pixels) / static_cast<float>(canvas.height);
+  };
+  words.panels.push_back({.x = of_width(x),
+                          .y = top,
+                          .width = of_width(width),
+                          .height = of_height(height),
+                          .outline = {0.93f, 0.95f, 0.99f, 0.8f}});
+  words.texts.push_back({.words = "the goal again   Space: skip",
+                         .x = of_width(x + width / 2),
+                         .y = top + of_height(height) + 0.025f,
+                         .size = 0.026f,
+                         .has_plate = true});
+}
+
 void Application::draw(Interface& interface, Renderer* renderer, const WindowSize& size,
                        const Canvas& canvas, double now_s) {
-  assert((last_s_ < 0.0 || now_s >= last_s_) && "real time never falls");
+  assert((figures_.last_s < 0.0 || now_s >= figures_.last_s) && "real time never falls");
   size_ = size;
   hear_events(interface);
   if (const Thing* asked = interest_.is_shown ? asked_thing(match_->sight(), interest_) : nullptr)
@@ -208,11 +289,18 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   move_hand();
   match_->advance(now_s);
   follow_phase();
+  told_.series.look(match_->sight());
+  if (has_motion() && wish_.kind != MatchWish::Kind::bots) {
+    feel_.impacts.look(match_->sight(), now_s);
+    if (wish_.kind != MatchWish::Kind::replay) feel_.replay.look(match_->sight(), now_s);
+  } else {
+    feel_ = {};
+  }
   if (surroundings_.sound && wish_.kind != MatchWish::Kind::bots)
     surroundings_.sound(match_->sight().noises, settings_);
-  interface.begin(size, last_s_ < 0.0 ? 0.0 : now_s - last_s_);
+  interface.begin(size, figures_.last_s < 0.0 ? 0.0 : now_s - figures_.last_s);
   draw_views(interface, renderer, canvas, now_s);
-  last_s_ = now_s;
+  figures_.last_s = now_s;
   const MenuWish wish = menu_.draw(interface, settings_, match_->sight());
   interface.finish(canvas, renderer != nullptr);
   do_wish(wish);

@@ -8,11 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "game/view/feel/goal_replay.h"
+#include "game/view/feel/impact_effects.h"
+#include "game/view/first_minute.h"
 #include "game/view/hand_control.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
 #include "game/view/menu.h"
 #include "game/view/overlays/interest_overlay.h"
+#include "game/view/overlays/replay_view.h"
 #include "game/view/picture_of.h"
 #include "game/view/settings.h"
 #include "game/view/window/event_queue.h"
@@ -28,6 +32,7 @@ struct Surroundings {
   std::function<void(const Settings&)> save_settings{};
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
   std::function<void(const std::string&)> notify{};  ///< troubles, for the standard error
+  bool wants_less_motion = false;                    ///< the desktop says so
 };
 
 class Application {
@@ -41,7 +46,7 @@ class Application {
   void explain(const std::string& error);
   void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
 
-  void show_figures() { shows_figures_ = true; }
+  void show_figures() { figures_.are_shown = true; }
 
   /// Takes effect at the next drawing or a later one, so that each press is visible in one drawing
   /// at least (event_queue.h).
@@ -50,6 +55,10 @@ class Application {
   /// must exist. Without a renderer nothing is drawn.
   void draw(Interface& interface, Renderer* renderer, const WindowSize& size, const Canvas& canvas,
             double now_s);
+
+  /// The window has this size, which fills no screen; kept with the settings.
+  void remember_window(const WindowPoints& window) { settings_.window = window; }
+  const Settings& settings() const { return settings_; }
 
   bool wants_to_quit() const { return wants_to_quit_; }
   /// True once a match that was started by play() is over or gone.
@@ -68,6 +77,21 @@ class Application {
     bool is_dragging = false;
   };
 
+  struct Figures {
+    bool are_shown = false;
+    double last_s = -1.0, frame_s = 1.0 / 60.0;  ///< the last frame, and how long one takes
+  };
+
+  struct Told {
+    FirstMinute first;
+    Series series;
+  };
+
+  struct Feel {
+    ImpactEffects impacts;
+    GoalReplay replay;
+  };
+
   // application.cpp
   void start(const MatchWish& wish);
   void do_wish(const MenuWish& wish);
@@ -77,6 +101,11 @@ class Application {
   void draw_views(Interface& interface, Renderer* renderer, const Canvas& canvas, double now_s);
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
+  bool has_motion() const;
+  void use(Hint hint);
+  void tell(double now_s, Picture& words);
+  void add_record(const ViewChoice& choice, double aspect, Picture& words);
+  void draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words);
 
   // application_input.cpp
   EventQueue::Pace pace() const;
@@ -107,12 +136,18 @@ class Application {
   ViewChoice view_;
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame
-  bool shows_figures_ = false, follows_ = false;
-  bool is_told_ = false;  ///< whether a replay's result was reported
+  bool follows_ = false;
+  struct Recorded {
+    bool is_told = false;  ///< whether its result was reported
+    ReplayBar bar;
+  };
+  Recorded recorded_;
   Mouse mouse_;
   HandControl hand_;
   WindowSize size_;
-  double last_s_ = -1.0, frame_s_ = 1.0 / 60.0;
+  Figures figures_;
+  Feel feel_;
+  Told told_;
   bool wants_to_quit_ = false;
 };
 

@@ -60,6 +60,10 @@ void Application::set_split(bool is_wanted) {
 /// Handles keys of the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
   if (hear_replay(code)) return true;
+  if (code == GLFW_KEY_SPACE && feel_.replay.shown() != nullptr) {
+    feel_.replay.skip();
+    return true;
+  }
   switch (code) {
     case GLFW_KEY_TAB:
       ++interest_.chosen;
@@ -67,6 +71,11 @@ bool Application::hear_command(KeyCode code) {
       return true;
     case GLFW_KEY_I:
       interest_.is_shown = !interest_.is_shown;
+      return true;
+    case GLFW_KEY_F1:
+      set_paused(true);
+      menu_.open(Menu::Screen::help);
+      use(Hint::help);
       return true;
     case GLFW_KEY_V:
       set_split(!is_split());
@@ -77,6 +86,7 @@ bool Application::hear_command(KeyCode code) {
       return true;
     case GLFW_KEY_C:
       release_all();
+      use(Hint::camera);
       chosen_viewpoint_ = is_split()
                               ? Viewpoint::side
                               : static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
@@ -89,7 +99,7 @@ bool Application::hear_command(KeyCode code) {
       follows_ = !follows_;
       return true;
     case GLFW_KEY_F3:
-      shows_figures_ = !shows_figures_;
+      figures_.are_shown = !figures_.are_shown;
       return true;
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
@@ -138,6 +148,11 @@ bool Application::hear_replay(KeyCode code) {
 /// inspects a thing.
 void Application::hear_mouse(const WindowEvent& event) {
   using Kind = WindowEvent::Kind;
+  if (auto* replay = dynamic_cast<game::ReplayMatch*>(match_.get())) {
+    if (const auto instant = recorded_.bar.hear(event, size_, replay->end()))
+      replay->seek(*instant);
+    if (recorded_.bar.is_held()) return;
+  }
   const bool is_pointer = settings_.control == Control::pointer && match_->hand_count() > 0;
   if (event.kind == Kind::scroll)
     view_.zoom = std::clamp(view_.zoom * std::pow(1.15, event.y), 1.0, 40.0);
@@ -239,6 +254,7 @@ void Application::press(KeyCode code, const Bound& meaning) {
       held_, [&](const HeldKey& held) { return held.hand == hand && held.key == key; });
   held_.push_back({code, hand, key});
   if (!was_down) match_->press(hand, key, true);
+  if (match_->sight().phase == Phase::playing) use(Hint::move);
 }
 
 void Application::release(KeyCode code) {

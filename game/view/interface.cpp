@@ -143,6 +143,13 @@ void Interface::draw(const Picture& picture) {
   if (picture.is_split)
     list.AddRectFilled({0.5f * size.x - 2.0f * unit_, 0.0f}, {0.5f * size.x + 2.0f * unit_, size.y},
                        packed({0.02f, 0.03f, 0.05f, 1.0f}));
+  for (const Panel& panel : picture.panels) {
+    const ImVec2 low(panel.x * size.x, panel.y * size.y),
+        high((panel.x + panel.width) * size.x, (panel.y + panel.height) * size.y);
+    if (panel.fill.alpha > 0.0f) list.AddRectFilled(low, high, packed(panel.fill));
+    if (panel.outline.alpha > 0.0f)
+      list.AddRect(low, high, packed(panel.outline), 0.0f, 0, 2.0f * unit_);
+  }
   for (const Text& text : picture.texts) {
     const float height = text.size * 720.0f * unit_;
     const auto larger = std::ranges::find_if(

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <utility>
 
+#include "game/view/first_minute.h"
 #include "game/view/picture_of.h"
 #include "game/view/window/glfw.h"
 
@@ -26,8 +27,8 @@ void words_in_the_middle(const char* words) {
 }  // namespace
 
 void Menu::open(Screen screen) {
-  assert((screen != Screen::settings || screen_ != Screen::settings) && "or none led back");
-  if (screen == Screen::settings) back_ = screen_;
+  if (screen == Screen::settings && screen_ != Screen::help) back_ = screen_;
+  if (screen == Screen::help && screen_ != Screen::help) help_back_ = screen_;
   screen_ = screen;
   is_fresh_ = true;
   drawn_ = 0;
@@ -52,8 +53,14 @@ bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
     wish.kind = MenuWish::Kind::settings_changed;
     return true;
   }
-  if (code != GLFW_KEY_ESCAPE || screen_ == Screen::none) return false;
+  if (screen_ == Screen::none) return false;
+  if (code == GLFW_KEY_F1) {
+    open(screen_ == Screen::help ? help_back_ : Screen::help);
+    return true;
+  }
+  if (code != GLFW_KEY_ESCAPE) return false;
   if (screen_ == Screen::settings) open(back_);
+  else if (screen_ == Screen::help) open(help_back_);
   else if (screen_ == Screen::paused) wish.kind = MenuWish::Kind::resume;
   else if (screen_ == Screen::over) wish.kind = MenuWish::Kind::leave;
   else open(Screen::main);
@@ -76,7 +83,7 @@ void Menu::begin_panel(const char* name, float width, float middle) const {
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
 }
 
-void Menu::draw_title() const {
+void Menu::draw_title(const Palette& palette) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   assert(interface_ != nullptr && unit_ > 0.0f);
   ImFont* font = interface_->title_font();
@@ -84,7 +91,7 @@ void Menu::draw_title() const {
   const ImVec2 screen = ImGui::GetIO().DisplaySize,
                extent = font->CalcTextSizeA(height, 1e6f, 0.0f, "RINK");
   ImVec2 place(0.5f * (screen.x - extent.x), 0.155f * screen.y - 0.5f * extent.y);
-  for (const auto& [letters, colour] : {std::pair{"RI", left_colour}, {"NK", right_colour}}) {
+  for (const auto& [letters, colour] : {std::pair{"RI", palette.left}, {"NK", palette.right}}) {
     list.AddText(font, height, {place.x + 5.0f * unit_, place.y + 5.0f * unit_},
                  IM_COL32(0, 0, 6, 190), letters);
     list.AddText(font, height, place, ImGui::ColorConvertFloat4ToU32(vector_of(colour)), letters);
@@ -108,7 +115,9 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
   ++drawn_;
   interface_ = &interface;
   unit_ = interface.unit();
-  if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused) draw_title();
+  if (screen_ != Screen::none && screen_ != Screen::over && screen_ != Screen::paused &&
+      screen_ != Screen::help)
+    draw_title(palette_of(settings.palette));
   switch (screen_) {
     case Screen::none:
       break;
@@ -135,6 +144,9 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
       break;
     case Screen::over:
       draw_over(wish, sight);
+      break;
+    case Screen::help:
+      draw_help(settings);
       break;
   }
   if (wish.kind == MenuWish::Kind::play) error_.clear();
@@ -187,10 +199,11 @@ void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title,
 
 void Menu::draw_keys(Settings& settings) {
   constexpr std::array directions{"left", "right", "up", "down"};
+  const Palette& palette = palette_of(settings.palette);
   if (!ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingStretchSame)) return;
   ImGui::TableNextRow();
   for (const auto& [column, words, colour] :
-       {std::tuple{1, "Red", left_colour}, {2, "Blue", right_colour}}) {
+       {std::tuple{1, palette.left_name, palette.left}, {2, palette.right_name, palette.right}}) {
     ImGui::TableSetColumnIndex(column);
     ImGui::TextColored(vector_of(colour), "%s", words);
   }
@@ -249,12 +262,42 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   ImGui::SameLine();
   ImGui::Checkbox("Split screen for two", &settings.is_split);
   draw_control(settings);
+  const auto palette = static_cast<std::size_t>(settings.palette);
+  if (ImGui::Button((std::string(palettes[palette].label) + "##colours").c_str()))
+    settings.palette = static_cast<PaletteKind>((palette + 1) % palettes.size());
+  ImGui::SameLine();
+  ImGui::Checkbox("Effects", &settings.has_effects);
+  ImGui::SameLine();
+  ImGui::Checkbox("Less motion", &settings.has_less_motion);
+  ImGui::Checkbox("Music", &settings.has_music);
+  ImGui::SameLine();
+  ImGui::Checkbox("Best of three", &settings.is_best_of_three);
+  ImGui::SameLine();
+  if (ImGui::Button("Keys as they were")) settings.keys = default_keys();
   ImGui::PopFont();
-  if (button("Keys as they were")) settings.keys = default_keys();
   if (button("Back")) open(back_);
   ImGui::End();
   if (settings != before && wish.kind == MenuWish::Kind::nothing)
     wish.kind = MenuWish::Kind::settings_changed;
+}
+
+void Menu::draw_help(const Settings& settings) {
+  begin_panel("help", 800.0f, 0.5f);
+  words_in_the_middle("Keys");
+  ImGui::PushFont(interface_->small_font());
+  if (ImGui::BeginTable("all keys", 2, ImGuiTableFlags_SizingStretchProp)) {
+    for (const auto& [keys, meaning] : all_keys(settings)) {
+      ImGui::TableNextRow();
+      ImGui::TableSetColumnIndex(0);
+      ImGui::TextColored(vector_of(palette_of(settings.palette).ring), "%s", keys.c_str());
+      ImGui::TableSetColumnIndex(1);
+      ImGui::TextUnformatted(meaning.c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::PopFont();
+  if (button("Back")) open(help_back_);
+  ImGui::End();
 }
 
 void Menu::draw_paused(MenuWish& wish) {

@@ -42,7 +42,18 @@ struct MenuWish {
 
 class Menu {
  public:
-  enum class Screen : std::uint8_t { none, main, bot, host, join, watch, settings, paused, over };
+  enum class Screen : std::uint8_t {
+    none,
+    main,
+    bot,
+    host,
+    join,
+    watch,
+    settings,
+    paused,
+    over,
+    help
+  };
 
   Screen screen() const { return screen_; }
   /// True if the screen has been drawn often enough for its first button to have the focus: earlier
@@ -76,10 +87,11 @@ class Menu {
   void draw_control(Settings& settings) const;
   void draw_paused(MenuWish& wish);
   void draw_over(MenuWish& wish, const MatchSight& sight);
-  void draw_title() const;
+  void draw_help(const Settings& settings);
+  void draw_title(const Palette& palette) const;
   void draw_error() const;
 
-  Screen screen_ = Screen::main, back_ = Screen::main;
+  Screen screen_ = Screen::main, back_ = Screen::main, help_back_ = Screen::main;
   std::string error_;
   std::string address_ = "127.0.0.1:4711", port_ = "4711";
   std::optional<Binding> binding_;

@@ -18,23 +18,26 @@ Colour toned(const Colour& colour, float part) {
           std::lerp(colour.blue, to, weight), colour.alpha};
 }
 
-Piece piece_of(const Thing& thing) {
+Piece piece_of(const Thing& thing, const ViewChoice& choice) {
+  const Palette& palette = palette_of(choice.palette);
   Piece piece;
   piece.x = static_cast<float>(thing.position.x());
   piece.y = static_cast<float>(thing.position.y());
   piece.half_x = static_cast<float>(thing.half_extent.x());
   piece.half_y = static_cast<float>(thing.half_extent.y());
-  piece.velocity_x = static_cast<float>(thing.velocity.x());
-  piece.velocity_y = static_cast<float>(thing.velocity.y());
+  if (choice.has_effects) {
+    piece.velocity_x = static_cast<float>(thing.velocity.x());
+    piece.velocity_y = static_cast<float>(thing.velocity.y());
+  }
   if (thing.kind == physics::BodyKind::puck) {
     piece.shape = Piece::Shape::puck;
     piece.height = 0.6f * piece.half_x;
     piece.colour = {0.11f, 0.12f, 0.15f, 1.0f};
-    piece.accent = {1.0f, 0.74f, 0.12f, 1.0f};
+    piece.accent = palette.ring;
   } else if (thing.kind == physics::BodyKind::bat) {
     piece.shape = Piece::Shape::bat;
     piece.height = std::min(0.05f, 0.5f * piece.half_y);
-    piece.colour = colour_of(thing.team);
+    piece.colour = colour_of(thing.team, palette);
     piece.accent = toned(piece.colour, 0.72f);
   } else {
     piece.shape = Piece::Shape::post;
@@ -59,14 +62,6 @@ Scoreboard board_of(const MatchSight& sight, Viewpoint viewpoint) {
   return board;
 }
 
-/// Players of a network match have no names: one is you. Teams without a name are called by their
-/// colour.
-std::string name_of(const MatchSight& sight, game::Team team) {
-  if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
-  const std::string& name = team == game::Team::left ? sight.left_name : sight.right_name;
-  return name == "left" ? "Red" : name == "right" ? "Blue" : name;
-}
-
 /// "RED WINS", "YOU WIN".
 std::string victory(std::string name) {
   const bool is_you = name == "You";
@@ -89,7 +84,7 @@ void add_countdown(const MatchSight& sight, std::vector<Text>& texts) {
                    .colour = colour});
 }
 
-void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
+void add_headlines(const MatchSight& sight, const Palette& palette, std::vector<Text>& texts) {
   const auto headline = [&](const std::string& words, const std::string& below,
                             const Colour& colour) {
     texts.push_back({.words = words, .y = 0.42f, .size = 0.17f, .colour = colour});
@@ -100,7 +95,7 @@ void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
       std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right);
   if (sight.phase == Phase::countdown) add_countdown(sight, texts);
   else if (sight.phase == Phase::playing && sight.scorer)
-    headline("GOAL", score, toned(colour_of(*sight.scorer), 0.15f));
+    headline("GOAL", score, toned(colour_of(*sight.scorer, palette), 0.15f));
   else if (sight.phase == Phase::paused) headline("PAUSED", "", bright);
   else if (sight.phase == Phase::waiting) headline("WAITING", "for the other player", bright);
   else if (sight.phase == Phase::away)
@@ -111,21 +106,24 @@ void add_headlines(const MatchSight& sight, std::vector<Text>& texts) {
              bright);
   else if (sight.phase == Phase::lost) headline("CONNECTION LOST", "", bright);
   else if (sight.phase == Phase::over && sight.winner)
-    headline(victory(name_of(sight, *sight.winner)), score, toned(colour_of(*sight.winner), 0.15f));
+    headline(victory(name_of(sight, *sight.winner, palette)), score,
+             toned(colour_of(*sight.winner, palette), 0.15f));
 }
 
 /// Whose time with the puck runs out, or has run out.
-void add_possession(const MatchSight& sight, std::vector<Text>& texts) {
+void add_possession(const MatchSight& sight, const Palette& palette, std::vector<Text>& texts) {
   if (sight.phase != Phase::playing || sight.scorer) return;
   const auto line = [&](const std::string& words, game::Team team) {
-    texts.push_back(
-        {.words = words, .y = 0.2f, .size = 0.055f, .colour = toned(colour_of(team), 0.35f)});
+    texts.push_back({.words = words,
+                     .y = 0.2f,
+                     .size = 0.055f,
+                     .colour = toned(colour_of(team, palette), 0.35f)});
   };
   if (sight.served) {
-    const std::string name = name_of(sight, *sight.served);
+    const std::string name = name_of(sight, *sight.served, palette);
     line("Time is up: " + (name == "You" ? "your puck" : "puck to " + name), *sight.served);
   } else if (sight.holder) {
-    const std::string name = name_of(sight, *sight.holder),
+    const std::string name = name_of(sight, *sight.holder, palette),
                       left = std::to_string(
                           std::clamp(static_cast<int>(std::ceil(sight.possession_s)), 1, 3));
     line((name == "You" ? "Shoot: " : name + " must shoot: ") + left, *sight.holder);
@@ -163,23 +161,24 @@ void add_link(const MatchSight& sight, const ViewChoice& choice, std::vector<Tex
 /// Names beside the score at the top; in perspective the board shows the score already.
 void add_names(const MatchSight& sight, const ViewChoice& choice, std::vector<Text>& texts) {
   if (!sight.goals_to_win) return;  // a crowd
+  const Palette& palette = palette_of(choice.palette);
   const bool is_turned = choice.viewpoint == Viewpoint::right_end;
   const game::Team first = is_turned ? game::Team::right : game::Team::left,
                    second = is_turned ? game::Team::left : game::Team::right;
-  texts.push_back({.words = name_of(sight, first),
+  texts.push_back({.words = name_of(sight, first, palette),
                    .x = 0.02f,
                    .y = 0.045f,
                    .size = 0.042f,
                    .align = Text::Align::left,
-                   .colour = toned(colour_of(first), 0.2f)});
+                   .colour = toned(colour_of(first, palette), 0.2f)});
   const bool has_corner = !choice.shows_link;
   if (has_corner)
-    texts.push_back({.words = name_of(sight, second),
+    texts.push_back({.words = name_of(sight, second, palette),
                      .x = 0.98f,
                      .y = 0.045f,
                      .size = 0.042f,
                      .align = Text::Align::right,
-                     .colour = toned(colour_of(second), 0.2f)});
+                     .colour = toned(colour_of(second, palette), 0.2f)});
   if (choice.viewpoint != Viewpoint::above) return;
   texts.push_back(
       {.words = std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right),
@@ -190,9 +189,10 @@ void add_names(const MatchSight& sight, const ViewChoice& choice, std::vector<Te
 
 }  // namespace
 
-Colour colour_of(game::Team team) {
-  if (team == game::Team::left) return left_colour;
-  return team == game::Team::right ? right_colour : Colour{0.45f, 0.75f, 0.45f, 1.0f};
+std::string name_of(const MatchSight& sight, game::Team team, const Palette& palette) {
+  if (sight.link && sight.own_team) return team == *sight.own_team ? "You" : "Opponent";
+  const std::string& name = team == game::Team::left ? sight.left_name : sight.right_name;
+  return name == "left" ? palette.left_name : name == "right" ? palette.right_name : name;
 }
 
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect) {
@@ -235,22 +235,23 @@ game::Key seen_from(Viewpoint viewpoint, game::Key key) {
 
 Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewChoice& choice,
                    double aspect) {
+  const Palette& palette = palette_of(choice.palette);
   Picture picture;
   picture.table = {static_cast<float>(sight.field.length), static_cast<float>(sight.field.width),
-                   static_cast<float>(sight.field.goal_width), left_colour, right_colour};
+                   static_cast<float>(sight.field.goal_width), palette.left, palette.right};
   picture.camera = camera_of(sight.field, choice, aspect);
   picture.board = board_of(sight, choice.viewpoint);
   picture.overlay = overlay;
   picture.pieces.reserve(sight.things.size());
-  for (const Thing& thing : sight.things) picture.pieces.push_back(piece_of(thing));
+  for (const Thing& thing : sight.things) picture.pieces.push_back(piece_of(thing, choice));
   if (sight.scorer)
     (*sight.scorer == game::Team::right ? picture.left_glow : picture.right_glow) =
         static_cast<float>(std::exp(-1.6 * sight.since_goal_s));
   const bool is_stopped = sight.phase != Phase::playing && sight.phase != Phase::countdown;
   picture.dimming = is_stopped ? 0.55f : sight.phase == Phase::countdown ? 0.25f : 0.0f;
   add_names(sight, choice, picture.texts);
-  add_headlines(sight, picture.texts);
-  add_possession(sight, picture.texts);
+  add_headlines(sight, palette, picture.texts);
+  add_possession(sight, palette, picture.texts);
   if (!sight.notice.empty())
     picture.texts.push_back({.words = sight.notice, .y = 0.955f, .size = 0.032f, .colour = bright});
   if (choice.shows_link) add_link(sight, choice, picture.texts);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "game/view/match_source.h"
+#include "game/view/palette.h"
 #include "game/view/render/picture.h"
 
 namespace rink::view {
@@ -16,13 +17,13 @@ struct ViewChoice {
   Vector2 centre{0.5, 0.5};   ///< from above: the point in the middle, as a part of the field
   bool shows_link = false;    ///< figures of the connection
   double frames_per_s = 0.0;  ///< shown with them
+  PaletteKind palette = PaletteKind::standard;
+  bool has_effects = true;  ///< what is fast has a streak
 };
 
-inline constexpr Colour left_colour{1.0f, 0.36f, 0.27f, 1.0f},
-    right_colour{0.13f, 0.62f, 1.0f, 1.0f};
-
-/// "left" is red and "right" is blue, everywhere.
-Colour colour_of(game::Team team);
+/// Players of a network match have no names: one is you. Teams without a name are called by their
+/// colour.
+std::string name_of(const MatchSight& sight, game::Team team, const Palette& palette);
 
 /// `aspect` is width by height of the window.
 Camera camera_of(const physics::Field& field, const ViewChoice& choice, double aspect);

@@ -22,11 +22,24 @@ constexpr std::array<const char*, 2> player_tables{"left", "right"};
 constexpr std::size_t errors_max = 4;  ///< shown at once; they must fit on a small screen
 constexpr std::uintmax_t file_largest = 1u << 20;  ///< bytes
 
+struct Switch {
+  std::string_view name;
+  bool Settings::*place;
+};
+constexpr std::array switches{Switch{"mute", &Settings::is_muted},
+                              Switch{"full_screen", &Settings::is_full_screen},
+                              Switch{"split_screen", &Settings::is_split},
+                              Switch{"effects", &Settings::has_effects},
+                              Switch{"reduced_motion", &Settings::has_less_motion},
+                              Switch{"music", &Settings::has_music},
+                              Switch{"best_of_three", &Settings::is_best_of_three}};
+
 class Reader {
  public:
   Reader(std::string file, ReadSettings& read) : file_(std::move(file)), read_(read) {}
 
   void read(const toml::table& root) {
+    if (const toml::node* version = root.get("version")) read_version(*version);
     for (const auto& [key, node] : root) read_entry(key.str(), node);
     refuse_double_use();
     for (const auto& [line, words] : errors_) {
@@ -44,14 +57,30 @@ class Reader {
     errors_.emplace(node.source().begin.line, what);
   }
 
+  /// What a newer Rink has added is no fault of the player: it is said in one line.
+  void read_version(const toml::node& node) {
+    const auto version = node.value_exact<std::int64_t>();
+    if (!version || *version < 1) return problem(node, "version must be a whole number from 1");
+    is_newer_ = *version > settings_version;
+    if (is_newer_)
+      problem(node, "these settings are of a newer Rink (version " + std::to_string(*version) +
+                        ", this one has " + std::to_string(settings_version) +
+                        "); what is known of them counts");
+  }
+
   void read_entry(std::string_view key, const toml::node& node) {
     Settings& settings = read_.settings;
-    if (key == "mute" || key == "full_screen" || key == "split_screen") {
-      if (const auto value = node.value_exact<bool>())
-        (key == "mute"          ? settings.is_muted
-         : key == "full_screen" ? settings.is_full_screen
-                                : settings.is_split) = *value;
+    if (const auto found = std::ranges::find(switches, key, &Switch::name);
+        found != switches.end()) {
+      if (const auto value = node.value_exact<bool>()) settings.*found->place = *value;
       else problem(node, std::string(key) + " must be true or false");
+    } else if (key == "version") {
+    } else if (key == "window") {
+      read_window(node);
+    } else if (key == "hints_seen") {
+      read_hints(node);
+    } else if (key == "colours") {
+      read_palette(node);
     } else if (key == "volume") {
       read_number(node, "volume", 0.0, 1.0, settings.volume);
     } else if (key == "control") {
@@ -65,12 +94,53 @@ class Reader {
       read_number(node, "sensitivity", sensitivity_min, sensitivity_max, settings.sensitivity);
     } else if (key == "keys" && node.is_table()) {
       read_keys(*node.as_table());
-    } else {
-      problem(node,
-              "there is no setting '" + std::string(key) +
-                  "'; there are: mute, volume, full_screen, split_screen, control, dead_zone, "
-                  "sensitivity, keys.left, keys.right");
+    } else if (!is_newer_) {
+      std::string all = "version, ";
+      for (const Switch& each : switches) all += std::string(each.name) + ", ";
+      problem(
+          node,
+          "there is no setting '" + std::string(key) + "'; there are: " + all +
+              "volume, window, colours, hints_seen, control, dead_zone, sensitivity, keys.left, "
+              "keys.right");
     }
+  }
+
+  void read_window(const toml::node& node) {
+    const toml::array* sizes = node.as_array();
+    const auto number = [&](std::size_t place, int least, int most) -> std::optional<int> {
+      const auto value = (*sizes)[place].value_exact<std::int64_t>();
+      if (!value || *value < least || *value > most) return std::nullopt;
+      return static_cast<int>(*value);
+    };
+    if (sizes != nullptr && sizes->size() == 2) {
+      const auto width = number(0, window_least.width, window_most.width),
+                 height = number(1, window_least.height, window_most.height);
+      if (width && height) {
+        read_.settings.window = {*width, *height};
+        return;
+      }
+    }
+    problem(node, "window must be [width, height], from 320 and 240 to 8192");
+  }
+
+  void read_hints(const toml::node& node) {
+    const toml::array* names = node.as_array();
+    if (names == nullptr) return problem(node, "hints_seen must be a list of names in quotes");
+    for (const toml::node& each : *names) {
+      const auto name = each.value_exact<std::string>();
+      const auto found = std::ranges::find(hint_names, name ? std::string_view(*name) : "");
+      if (found != hint_names.end())
+        read_.settings.hints_seen[static_cast<std::size_t>(found - hint_names.begin())] = true;
+      else if (!is_newer_)
+        problem(each, "there is no such hint; there are: how_to_play, move, pause, camera, help");
+    }
+  }
+
+  void read_palette(const toml::node& node) {
+    const auto name = node.value_exact<std::string>();
+    if (const auto kind = name ? palette_from_name(*name) : std::nullopt)
+      read_.settings.palette = *kind;
+    else problem(node, "colours must be " + palette_names());
   }
 
   void read_number(const toml::node& node, const char* name, double least, double most,
@@ -133,6 +203,7 @@ class Reader {
 
   std::string file_;
   ReadSettings& read_;
+  bool is_newer_ = false;                             ///< the file is of a later version
   std::multimap<std::uint32_t, std::string> errors_;  ///< by line
 };
 
@@ -174,12 +245,20 @@ std::string settings_text(const Settings& settings) {
   std::ostringstream text;
   text << "# Rink's settings for playing. Keys are called: a, 7, up, left shift, space, f1, keypad "
           "4, comma, ...\n";
-  text << "mute = " << (settings.is_muted ? "true" : "false") << "\nvolume = " << settings.volume
-       << "\nfull_screen = " << (settings.is_full_screen ? "true" : "false")
-       << "\nsplit_screen = " << (settings.is_split ? "true" : "false") << "\ncontrol = \""
+  text << "version = " << settings_version << '\n';
+  for (const Switch& each : switches)
+    text << each.name << " = " << (settings.*each.place ? "true" : "false") << '\n';
+  text << "volume = " << settings.volume << "\nwindow = [" << settings.window.width << ", "
+       << settings.window.height << "]\ncolours = \"" << palette_of(settings.palette).name
+       << "\"  # " << palette_names() << "\ncontrol = \""
        << control_names[static_cast<std::size_t>(settings.control)]
        << "\"  # keys, pointer or gamepad\ndead_zone = " << settings.dead_zone
        << "\nsensitivity = " << settings.sensitivity << '\n';
+  std::string seen;
+  for (std::size_t hint = 0; hint < hint_names.size(); ++hint)
+    if (settings.hints_seen[hint])
+      seen += (seen.empty() ? "\"" : ", \"") + std::string(hint_names[hint]) + '"';
+  text << "hints_seen = [" << seen << "]\n";
   for (std::size_t player = 0; player < player_tables.size(); ++player) {
     text << "\n[keys." << player_tables[player] << "]\n";
     for (const game::Key key : game::all_keys)

@@ -1,4 +1,4 @@
-// The player's settings: keys, sound, size of the window, in a small TOML file that people may
+// The player's settings: keys, sound, effects, the window, in a small TOML file that people may
 // edit.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "game/model/key.h"
+#include "game/view/palette.h"
 
 namespace rink::view {
 
@@ -30,15 +31,37 @@ inline constexpr std::array<const char*, 3> control_names{"keys", "pointer", "ga
 /// Nothing if `name` is none of control_names.
 std::optional<Control> control_from_name(std::string_view name);
 
+/// Of the file; 1 had no entry `version`.
+inline constexpr std::int64_t settings_version = 2;
+
+/// Of a window on the desktop [points].
+struct WindowPoints {
+  int width = 1280, height = 720;
+  friend bool operator==(const WindowPoints&, const WindowPoints&) = default;
+};
+inline constexpr WindowPoints window_least{320, 240}, window_most{8192, 8192};
+
+/// What is told once: in the file by these names.
+enum class Hint : std::uint8_t { how_to_play, move, pause, camera, help };
+inline constexpr std::array<const char*, 5> hint_names{"how_to_play", "move", "pause", "camera",
+                                                       "help"};
+
 struct Settings {
   std::array<KeySet, 2> keys;       ///< of the left and the right player
   Control control = Control::keys;  ///< of the only player, or of the left of two
   double dead_zone = 0.15;          ///< of a gamepad's stick, of its way to the rim: 0 to 0.9
   double sensitivity = 1.0;         ///< how far pointer or stick move the hand: 0.2 to 5
   bool is_muted = false;
-  double volume = 0.7;  ///< 0 to 1
+  double volume = 0.7;           ///< 0 to 1
+  bool has_effects = true;       ///< trails, sparks, nudges, turning pucks, replays, horn
+  bool has_less_motion = false;  ///< nothing of them that moves
+  bool has_music = false;
+  bool is_best_of_three = false;
+  std::array<bool, hint_names.size()> hints_seen{};  ///< by Hint
   bool is_full_screen = false;
   bool is_split = true;  ///< two at one keyboard see the table each from the own end
+  WindowPoints window{};
+  PaletteKind palette = PaletteKind::standard;
   Settings();
   friend bool operator==(const Settings&, const Settings&) = default;
 };

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "game/view/feel/music.h"
+
 namespace rink::view {
 namespace {
 
@@ -112,6 +114,19 @@ std::vector<std::int16_t> sound_of(Noise::Kind kind) {
   return {};
 }
 
+std::vector<std::int16_t> horn_sound() {
+  Mix mix(1.5);
+  for (const double voice : {155.6, 185.0, 233.1})
+    for (int overtone = 1; overtone <= 9; ++overtone)
+      mix.add({0.0, voice * overtone, 0.30 / overtone, 0.9});
+  return mix.take();
+}
+
+double pitch_of(const Noise& noise) {
+  return noise.kind <= Noise::Kind::puck_on_puck ? 0.9 + 0.25 * std::clamp(noise.strength, 0.0, 1.0)
+                                                 : 1.0;
+}
+
 namespace {
 
 /// Hides standard error while it lives, since OpenAL's drivers print errors, and a missing device
@@ -143,6 +158,9 @@ struct Sounds::Device {
   std::array<ALuint, kind_count> buffers{};
   std::array<ALuint, source_count> sources{};
   std::size_t next = 0;
+  ALuint horn = 0;                      ///< a buffer
+  ALuint music = 0, music_samples = 0;  ///< a source and its buffer, once it was wanted
+  bool is_music_on = false;
 };
 
 Sounds::Sounds() {
@@ -165,25 +183,60 @@ Sounds::Sounds() {
     alBufferData(device_->buffers[kind], AL_FORMAT_MONO16, samples.data(),
                  static_cast<ALsizei>(samples.size() * sizeof samples[0]), sound_rate);
   }
+  alGenBuffers(1, &device_->horn);
+  const std::vector<std::int16_t> horn = horn_sound();
+  alBufferData(device_->horn, AL_FORMAT_MONO16, horn.data(),
+               static_cast<ALsizei>(horn.size() * sizeof horn[0]), sound_rate);
 }
 
 Sounds::~Sounds() {
   if (!device_) return;
   alDeleteSources(source_count, device_->sources.data());
+  if (device_->music != 0) alDeleteSources(1, &device_->music);
+  if (device_->music_samples != 0) alDeleteBuffers(1, &device_->music_samples);
   alDeleteBuffers(kind_count, device_->buffers.data());
+  alDeleteBuffers(1, &device_->horn);
   alcMakeContextCurrent(nullptr);
   alcDestroyContext(device_->context);
   alcCloseDevice(device_->device);
 }
 
-void Sounds::play(const std::vector<Noise>& noises, double volume) {
-  if (!device_ || volume <= 0.0) return;
+/// Made when it is wanted first, since that takes a tenth of a second.
+void Sounds::play_music(const Hearing& hearing) {
+  Device& device = *device_;
+  const bool is_wanted = hearing.has_music && hearing.volume > 0.0;
+  if (is_wanted && device.music == 0) {
+    const std::vector<std::int16_t> loop = music_loop(sound_rate);
+    alGenBuffers(1, &device.music_samples);
+    alBufferData(device.music_samples, AL_FORMAT_MONO16, loop.data(),
+                 static_cast<ALsizei>(loop.size() * sizeof loop[0]), sound_rate);
+    alGenSources(1, &device.music);
+    alSourcei(device.music, AL_BUFFER, static_cast<ALint>(device.music_samples));
+    alSourcei(device.music, AL_LOOPING, AL_TRUE);
+    alSourcei(device.music, AL_SOURCE_RELATIVE, AL_TRUE);
+  }
+  if (device.music == 0) return;
+  alSourcef(device.music, AL_GAIN, static_cast<float>(0.4 * hearing.volume));
+  if (is_wanted == device.is_music_on) return;
+  if (is_wanted) alSourcePlay(device.music);
+  else alSourcePause(device.music);
+  device.is_music_on = is_wanted;
+}
+
+void Sounds::play(const std::vector<Noise>& noises, const Hearing& hearing) {
+  if (!device_) return;
+  play_music(hearing);
+  const double volume = hearing.volume;
+  if (volume <= 0.0) return;
   for (const Noise& noise : noises) {
     const ALuint source = device_->sources[device_->next++ % source_count];
     const auto aside = static_cast<float>(std::clamp(2.0 * noise.place - 1.0, -1.0, 1.0));
     alSourceStop(source);
+    const bool is_horn = hearing.has_horn && noise.kind == Noise::Kind::goal;
     alSourcei(source, AL_BUFFER,
-              static_cast<ALint>(device_->buffers[static_cast<std::size_t>(noise.kind)]));
+              static_cast<ALint>(is_horn ? device_->horn
+                                         : device_->buffers[static_cast<std::size_t>(noise.kind)]));
+    alSourcef(source, AL_PITCH, static_cast<float>(pitch_of(noise)));
     alSourcei(source, AL_SOURCE_RELATIVE, AL_TRUE);
     alSource3f(source, AL_POSITION, 0.7f * aside, 0.0f, -std::sqrt(1.0f - 0.49f * aside * aside));
     alSourcef(source, AL_GAIN, static_cast<float>(volume * std::clamp(noise.strength, 0.0, 1.0)));

@@ -13,6 +13,19 @@ inline constexpr int sound_rate = 44'100;  ///< samples per second
 
 /// The samples of `kind`: mono, starting and ending in silence.
 std::vector<std::int16_t> sound_of(Noise::Kind kind);
+/// Of a goal, as in a hall.
+std::vector<std::int16_t> horn_sound();
+
+/// What is heard of a match.
+struct Hearing {
+  double volume = 1.0;    ///< 0 to 1; 0 is silence
+  bool has_horn = false;  ///< at goals
+  bool has_music = false;
+};
+
+/// How much faster than recorded an impact of `strength`, 0 to 1, is played: harder ones sound
+/// higher.
+double pitch_of(const Noise& noise);
 
 /// Silent if there is no device; nothing here fails.
 class Sounds {
@@ -22,10 +35,10 @@ class Sounds {
   Sounds(const Sounds&) = delete;
   Sounds& operator=(const Sounds&) = delete;
 
-  /// `volume` from 0 to 1.
-  void play(const std::vector<Noise>& noises, double volume);
+  void play(const std::vector<Noise>& noises, const Hearing& hearing);
 
  private:
+  void play_music(const Hearing& hearing);
   struct Device;
   std::unique_ptr<Device> device_;  ///< null: silence
 };

@@ -26,6 +26,10 @@ TEST(Settings, ReadBackWhatTheyWrite) {
   settings.volume = 0.25;
   settings.control = Control::gamepad;
   settings.dead_zone = 0.5, settings.sensitivity = 2.5;
+  settings.window = {800, 1000};
+  settings.palette = PaletteKind::no_blue_yellow;
+  settings.is_best_of_three = settings.hints_seen[1] = settings.hints_seen[4] = true;
+  settings.has_effects = false, settings.has_less_motion = settings.has_music = true;
   const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
   EXPECT_THAT(read.errors, IsEmpty());
   EXPECT_EQ(read.settings, settings);
@@ -48,6 +52,34 @@ TEST(Settings, OfAnOlderFilePlayByKeys) {
   const ReadSettings read = parse_settings("mute = true\nvolume = 0.5\n", "play.toml");
   EXPECT_THAT(read.errors, IsEmpty());
   EXPECT_EQ(read.settings.control, Control::keys);
+}
+
+TEST(Settings, OfANewerVersionAreSaidOnceInAPlayersWordsAndTheKnownOnesCount) {
+  const ReadSettings read =
+      parse_settings("version = 99\nmute = true\nsmell = \"rubber\"\nice = 3\n", "play.toml");
+  EXPECT_THAT(read.errors, ElementsAre(AllOf(HasSubstr("play.toml:1: these settings are of a "
+                                                       "newer Rink (version 99"),
+                                             HasSubstr("what is known of them counts"))));
+  EXPECT_TRUE(read.settings.is_muted);
+  for (const char* version : {"0", "-1", "1.5", "\"two\""})
+    EXPECT_THAT(parse_settings(std::string("version = ") + version + "\n", "play.toml").errors,
+                ElementsAre(HasSubstr("version must be a whole number from 1")));
+  EXPECT_THAT(parse_settings("version = 1\n", "play.toml").errors, IsEmpty());
+}
+
+TEST(Settings, OfTheWindowAndItsColoursAreNamedWhereTheyAreWrong) {
+  for (const char* window : {"[1280]", "[1280, 720, 3]", "[1280, 100]", "[9000, 720]",
+                             "[1280.5, 720]", "\"1280x720\"", "[\"a\", \"b\"]"})
+    EXPECT_THAT(parse_settings(std::string("window = ") + window + "\n", "play.toml").errors,
+                ElementsAre(HasSubstr("window must be [width, height]")))
+        << window;
+  for (const char* hints : {"\"move\"", "[\"jump\"]", "[3]"})
+    EXPECT_THAT(parse_settings(std::string("hints_seen = ") + hints + "\n", "play.toml").errors,
+                ElementsAre(HasSubstr("play.toml:1: ")))
+        << hints;
+  EXPECT_THAT(
+      parse_settings("colours = \"pink\"\n", "play.toml").errors,
+      ElementsAre(HasSubstr("colours must be \"red-blue\", \"orange-blue\" or \"red-green\"")));
 }
 
 TEST(Settings, EveryKeyHasOneNameAndTheNameOneKey) {

@@ -9,7 +9,7 @@ namespace rink::view {
 namespace {
 
 /// Numbered as in the shader.
-enum class Kind : int { disc_shadow, box_shadow, streak, glow };
+enum class Kind : int { disc_shadow, box_shadow, streak, glow, line };
 
 constexpr float shadow_reach = 0.09f;  // m; where the contact shadow has faded
 
@@ -22,14 +22,14 @@ struct Mark {
     float x, y, half_x, half_y;
   } of;  ///< the thing that it belongs to
   Kind kind;
-  float a = 0.0f, b = 0.0f;  ///< what the shader makes of them depends on the kind
+  float a = 0.0f, b = 0.0f, c = 0.0f;  ///< what the shader makes of them depends on the kind
   Colour colour;
 };
 
 void add(std::vector<float>& rows, const Mark& mark) {
   rows.insert(rows.end(), {mark.reach.low_x, mark.reach.low_y, mark.reach.high_x, mark.reach.high_y,
                            mark.of.x, mark.of.y, mark.of.half_x, mark.of.half_y,
-                           static_cast<float>(mark.kind), mark.a, mark.b, 0.0f, mark.colour.red,
+                           static_cast<float>(mark.kind), mark.a, mark.b, mark.c, mark.colour.red,
                            mark.colour.green, mark.colour.blue, mark.colour.alpha});
 }
 
@@ -72,6 +72,34 @@ void add_glow(const Table& table, bool is_left, float part, std::vector<float>& 
              .colour = colour});
 }
 
+/// In pieces, since the shader runs in the whole box around one, which is large if it is aslant.
+void add_line(const Streak& streak, std::vector<float>& rows) {
+  constexpr float piece = 0.12f;  // m
+  const float x = streak.end_x - streak.x, y = streak.end_y - streak.y, length = std::hypot(x, y);
+  if (length <= 0.0f) return;
+  const int count = static_cast<int>(std::ceil(length / piece));
+  const auto n = static_cast<float>(count);
+  for (int k = 0; k < count; ++k) {
+    const float from = static_cast<float>(k) / n, to = static_cast<float>(k + 1) / n;
+    const auto width = [&](float part) {
+      return std::lerp(streak.half_width, streak.end_half_width, part);
+    };
+    const auto alpha = [&](float part) { return std::lerp(1.0f, streak.fading, part); };
+    const float x0 = streak.x + from * x, y0 = streak.y + from * y, x1 = streak.x + to * x,
+                y1 = streak.y + to * y, room = std::max(width(from), width(to));
+    Colour colour = streak.colour;
+    colour.alpha *= alpha(from);
+    add(rows, {.reach = {std::min(x0, x1) - room, std::min(y0, y1) - room, std::max(x0, x1) + room,
+                         std::max(y0, y1) + room},
+               .of = {x0, y0, width(from), width(to)},
+               .kind = Kind::line,
+               .a = x1 - x0,
+               .b = y1 - y0,
+               .c = alpha(to) / std::max(1e-6f, alpha(from)),
+               .colour = colour});
+  }
+}
+
 }  // namespace
 
 void add_marks(const Picture& picture, bool has_shadows, std::vector<float>& rows) {
@@ -79,6 +107,7 @@ void add_marks(const Picture& picture, bool has_shadows, std::vector<float>& row
   add_glow(picture.table, false, picture.right_glow, rows);
   if (!has_shadows) return;
   for (const Piece& piece : picture.pieces) add_shadow(piece, rows);
+  for (const Streak& streak : picture.streaks) add_line(streak, rows);
   for (const Piece& piece : picture.pieces) add_streak(piece, rows);
 }
 

@@ -11,6 +11,7 @@ namespace rink::view {
 /// Each component from 0 to 1; `alpha` 0 is invisible.
 struct Colour {
   float red = 0.0f, green = 0.0f, blue = 0.0f, alpha = 1.0f;
+  friend bool operator==(const Colour&, const Colour&) = default;
 };
 
 inline constexpr Colour clear{0.0f, 0.0f, 0.0f, 0.0f};

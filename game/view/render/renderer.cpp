@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "game/view/render/marks.h"
@@ -14,7 +15,7 @@
 namespace rink::view {
 namespace {
 
-constexpr int piece_row[] = {4, 4, 4, 3, 3}, plan_row[] = {4, 4, 4}, point_row[] = {3, 3, 3};
+constexpr int piece_row[] = {4, 4, 4, 4, 3}, plan_row[] = {4, 4, 4}, point_row[] = {3, 3, 3};
 /// With more pieces none has a shadow: in a crowd each is a few pixels.
 constexpr std::size_t shadowed_max = 400;
 /// Discs up to this radius [pixels] are drawn as points from above, in a third of the time of
@@ -59,7 +60,7 @@ void add_piece(const Piece& piece, const Sight& sight, bool is_image, const Canv
               {window[0], window[1], window[2], window[3], piece.x, piece.y,
                static_cast<float>(piece.shape), is_image ? 1.0f : 0.0f, half.x(), half.y(),
                half.z(), rounding(piece), piece.colour.red, piece.colour.green, piece.colour.blue,
-               piece.accent.red, piece.accent.green, piece.accent.blue});
+               piece.angle, piece.accent.red, piece.accent.green, piece.accent.blue});
 }
 
 /// True if any of the piece is visible.
@@ -69,8 +70,33 @@ bool is_within(const Piece& piece, const Sight& sight) {
 }
 
 bool is_point(const Piece& piece, float pixel) {
-  return piece.shape != Piece::Shape::bat && piece.half_x <= point_radius_max * pixel;
+  return piece.shape != Piece::Shape::bat && piece.angle == Piece::even &&
+         piece.half_x <= point_radius_max * pixel;
 }
+
+/// The canvas shifted as the picture is nudged: the stage that is kept is drawn elsewhere, not
+/// anew.
+Canvas nudged(const Picture& picture, const Canvas& canvas) {
+  if (picture.camera.is_plan) return canvas;
+  const auto pixels = [&](float part) {
+    return static_cast<int>(std::lround(part * static_cast<float>(canvas.height)));
+  };
+  Canvas there = canvas;
+  there.x += pixels(picture.nudge_x), there.y += pixels(picture.nudge_y);
+  return there;
+}
+
+/// Nothing is drawn beyond `canvas` until the end.
+class Clip {
+ public:
+  explicit Clip(const Canvas& canvas) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(canvas.x, canvas.y, canvas.width, canvas.height);
+  }
+  ~Clip() { glDisable(GL_SCISSOR_TEST); }
+  Clip(const Clip&) = delete;
+  Clip& operator=(const Clip&) = delete;
+};
 
 }  // namespace
 
@@ -86,10 +112,18 @@ Renderer::Renderer()
       points_(point_row, false),
       overlay_(overlay_row, false) {}
 
-void Renderer::draw(const Picture& picture, const Canvas& canvas) {
+void Renderer::draw(const Picture& picture, const Canvas& whole) {
+  const Canvas canvas = nudged(picture, whole);
   const Sight sight(picture.camera,
                     static_cast<float>(canvas.width) / static_cast<float>(canvas.height));
-  draw_stage(picture, sight, canvas);
+  const Target* stage = find_stage(picture, sight, canvas);
+  std::optional<Clip> clip;
+  if (canvas.x != whole.x || canvas.y != whole.y) {
+    glBindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
+    clip.emplace(whole);
+    clear_around();
+  }
+  if (stage != nullptr) show_stage(*stage, canvas);
   glBindFramebuffer(GL_FRAMEBUFFER, canvas.framebuffer);
   glViewport(canvas.x, canvas.y, canvas.width, canvas.height);
   glDisable(GL_DEPTH_TEST);
@@ -104,7 +138,9 @@ void Renderer::draw(const Picture& picture, const Canvas& canvas) {
   glBindVertexArray(0);
 }
 
-void Renderer::draw_stage(const Picture& picture, const Sight& sight, const Canvas& canvas) {
+/// The stage to show; nothing if the table is drawn already, for a camera that moves.
+const Target* Renderer::find_stage(const Picture& picture, const Sight& sight,
+                                   const Canvas& canvas) {
   stages_.begin_frame();
   const Stage wanted{picture.table,
                      picture.camera.is_plan ? Scoreboard{.is_there = false} : picture.board,
@@ -112,12 +148,19 @@ void Renderer::draw_stage(const Picture& picture, const Sight& sight, const Canv
   is_moving_ = picture.camera.is_plan && wanted != last_ &&
                !stages_.holds(wanted);  // a camera that moves needs no stage that is kept
   last_ = wanted;
-  if (is_moving_) return plain_.draw(picture.table, sight, canvas);
+  if (is_moving_) {
+    plain_.draw(picture.table, sight, canvas);
+    return nullptr;
+  }
   const Target& stage = stages_.show(wanted, sight);
   depth_ = stage.depth();
+  glDisable(GL_SCISSOR_TEST);
+  return &stage;
+}
+
+void Renderer::show_stage(const Target& stage, const Canvas& canvas) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, stage.framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, canvas.framebuffer);
-  glDisable(GL_SCISSOR_TEST);
   glBlitFramebuffer(0, 0, canvas.width, canvas.height, canvas.x, canvas.y, canvas.x + canvas.width,
                     canvas.y + canvas.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
@@ -183,7 +226,7 @@ void Renderer::draw_plan(const Picture& picture, const Sight& sight, const Canva
     rows_.insert(rows_.end(), {piece.x, piece.y, piece.half_x, piece.half_y, piece.colour.red,
                                piece.colour.green, piece.colour.blue,
                                piece.shape == Piece::Shape::bat ? 1.0f : 0.0f, piece.accent.red,
-                               piece.accent.green, piece.accent.blue, 0.0f});
+                               piece.accent.green, piece.accent.blue, piece.angle});
   }
   if (rows_.empty()) return;
   plan_program_.use();

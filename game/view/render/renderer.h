@@ -26,7 +26,8 @@ class Renderer {
   bool is_settled() const;
 
  private:
-  void draw_stage(const Picture& picture, const Sight& sight, const Canvas& canvas);
+  const Target* find_stage(const Picture& picture, const Sight& sight, const Canvas& canvas);
+  static void show_stage(const Target& stage, const Canvas& canvas);
   void draw_marks(const Picture& picture, const Sight& sight, const Canvas& canvas);
   void draw_overlay(const Picture& picture, const Sight& sight, const Canvas& canvas);
   void draw_points(const Picture& picture, const Sight& sight, float pixel);

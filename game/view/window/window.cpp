@@ -165,6 +165,15 @@ WindowSize Window::size() const {
   return size;
 }
 
+WindowPoints Window::points() const {
+  const WindowSize pixels = size();
+  const auto points = [&](int count, int least, int most) {
+    return std::clamp(static_cast<int>(std::lround(count / pixels.scale)), least, most);
+  };
+  return {points(pixels.width, window_least.width, window_most.width),
+          points(pixels.height, window_least.height, window_most.height)};
+}
+
 bool Window::is_full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
 
 void Window::set_full_screen(bool is_wanted) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "game/view/settings.h"
 #include "game/view/window/window_event.h"
 
 struct GLFWwindow;
@@ -31,6 +32,8 @@ class Window {
   /// The events since the last call.
   std::vector<WindowEvent> events();
   WindowSize size() const;
+  /// Of the desktop; on a screen with finer pixels there are fewer than of these.
+  WindowPoints points() const;
   bool is_full_screen() const;
   /// Switches to full screen on the monitor that shows most of it, or back to its place.
   void set_full_screen(bool is_wanted);

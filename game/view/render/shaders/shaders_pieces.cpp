@@ -62,6 +62,10 @@ void main() {
     float long_side = length(how.yz), along = clamp(dot(p, -how.yz) / (long_side * long_side), 0.0, 1.0);
     float away = length(p + how.yz * along) / (shape.z * (1.0 - 0.75 * along));
     result.a *= (1.0 - smoothstep(0.6, 1.0, away)) * (1.0 - along) * (1.0 - along);
+  } else if (kind == 4) {                                     // a line: how.yz is its way, shape.zw its half widths, how.w the part of alpha that is left at its end
+    float along = dot(p, how.yz) / dot(how.yz, how.yz);
+    if (along < 0.0 || along >= 1.0) discard;
+    result.a *= (1.0 - smoothstep(0.4, 1.0, length(p - how.yz * along) / mix(shape.z, shape.w, along))) * mix(1.0, how.w, along);
   } else {                                                    // the glow of a goal
     result.a *= exp(-length(p / shape.zw) * 2.2) * (1.0 - smoothstep(0.8, 1.0, length(p / shape.zw)));
   }
@@ -72,18 +76,20 @@ const char* const piece_vertex = R"glsl(
 layout(location = 0) in vec4 window;   // low and high corner of what may be covered, -1 to 1
 layout(location = 1) in vec4 place;    // centre [m], kind (0 puck, 1 bat, 2 post), 1 for the mirrored image
 layout(location = 2) in vec4 size;     // half extent, half height, rounding [m]
-layout(location = 3) in vec3 colour;
+layout(location = 3) in vec4 colour;   // and the angle to which a puck is turned; below -100: its ring is whole
 layout(location = 4) in vec3 accent;
 uniform vec3 right, up, forward;
 out vec3 ray;
 flat out vec4 spot, body;
 flat out vec3 tint, second;
+flat out float turn;
 void main() {
   vec2 corner = mix(window.xy, window.zw, vec2(gl_VertexID & 1, gl_VertexID >> 1));
   ray = forward + right * corner.x + up * corner.y;
   spot = place;
   body = size;
-  tint = colour;
+  tint = colour.rgb;
+  turn = colour.a;
   second = accent;
   gl_Position = vec4(corner, 0.0, 1.0);
 }
@@ -93,6 +99,7 @@ const char* const piece_fragment = R"glsl(
 in vec3 ray;
 flat in vec4 spot, body;
 flat in vec3 tint, second;
+flat in float turn;
 uniform vec3 eye;
 uniform mat4 view;
 uniform float pixel;                   // angle that a pixel covers
@@ -123,7 +130,9 @@ vec4 paint(vec3 p, vec3 normal) {
   vec3 colour = linear(tint), inlay = linear(second);
   if (spot.z < 0.5) {
     float out_of = length(p.xy) / body.x;
-    float ring = smoothstep(0.50, 0.54, out_of) * (1.0 - smoothstep(0.66, 0.70, out_of)) + (1.0 - smoothstep(0.14, 0.18, out_of));
+    float ring = smoothstep(0.50, 0.54, out_of) * (1.0 - smoothstep(0.66, 0.70, out_of));
+    if (turn > -100.0) ring *= smoothstep(-0.75, -0.55, cos(3.0 * (atan(p.y, p.x) - turn)));
+    ring += 1.0 - smoothstep(0.14, 0.18, out_of);
     return vec4(mix(colour, inlay, ring * step(0.5, normal.z)), 0.8);
   }
   if (spot.z < 1.5) {

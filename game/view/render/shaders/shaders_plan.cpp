@@ -7,7 +7,7 @@ namespace rink::view {
 const char* const plan_vertex = R"glsl(
 layout(location = 0) in vec4 form;     // centre, half extent [m]
 layout(location = 1) in vec4 colour;   // its alpha is 1 for a box
-layout(location = 2) in vec4 accent;
+layout(location = 2) in vec4 accent;   // its alpha is the angle to which a disc is turned; below -100: its ring is whole
 uniform mat4 view;
 uniform float pixel;                   // m
 out vec2 place;
@@ -38,6 +38,7 @@ void main() {
   } else {
     away = length(place) - half_extent.x;
     inner = clamp((0.18 * size - abs(away + 0.40 * size)) / pixel + 0.5, 0.0, 1.0);
+    if (second.a > -100.0) inner *= smoothstep(-0.75, -0.55, cos(3.0 * (atan(place.y, place.x) - second.a)));
   }
   vec3 colour = mix(tint.rgb, second.rgb, inner * clamp(0.5 * size / pixel - 0.5, 0.0, 1.0));
   colour *= 1.0 + 0.22 * dot(place / half_extent, vec2(-0.6, 0.6)) - 0.5 * clamp((away + 0.14 * size) / (0.14 * size), 0.0, 1.0);
