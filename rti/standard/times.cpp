@@ -35,8 +35,9 @@ std::wstring Times::name() const {
   return is_integer_ ? rti1516e::HLAinteger64TimeName : rti1516e::HLAfloat64TimeName;
 }
 
-std::auto_ptr<rti1516e::LogicalTimeFactory> Times::factory() const {
-  return rti1516e::HLAlogicalTimeFactoryFactory::makeLogicalTimeFactory(name());
+std::unique_ptr<rti1516e::LogicalTimeFactory> Times::factory() const {
+  return std::unique_ptr<rti1516e::LogicalTimeFactory>(
+      rti1516e::HLAlogicalTimeFactoryFactory::makeLogicalTimeFactory(name()).release());
 }
 
 std::unique_ptr<rti1516e::LogicalTime> Times::time(double value) const {

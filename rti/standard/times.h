@@ -19,7 +19,7 @@ class Times {
 
   bool is_integer() const { return is_integer_; }
   std::wstring name() const;
-  std::auto_ptr<rti1516e::LogicalTimeFactory> factory() const;
+  std::unique_ptr<rti1516e::LogicalTimeFactory> factory() const;
   /// The time that the core's stands for; between two integers it is the later one, before which
   /// nothing can come either.
   std::unique_ptr<rti1516e::LogicalTime> time(double value) const;

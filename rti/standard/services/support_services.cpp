@@ -99,8 +99,10 @@ void SupportServices::enableCallbacks() { federate().enable_callbacks(true); }
 void SupportServices::disableCallbacks() { federate().enable_callbacks(false); }
 
 std::auto_ptr<rti1516e::LogicalTimeFactory> SupportServices::getTimeFactory() const {
-  return federate().call(
-      [](rti::Ambassador&, FederateState& state) { return state.times.factory(); });
+  return std::auto_ptr<rti1516e::LogicalTimeFactory>(
+      federate()
+          .call([](rti::Ambassador&, FederateState& state) { return state.times.factory(); })
+          .release());
 }
 
 rti1516e::FederateHandle SupportServices::decodeFederateHandle(

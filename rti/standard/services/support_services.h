@@ -24,7 +24,11 @@ class SupportServices : public LookupServices {
                               double approximateMaximumTimeInSeconds) override;
   void enableCallbacks() override;
   void disableCallbacks() override;
+// The standard returns what C++ has deprecated since.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
   std::auto_ptr<rti1516e::LogicalTimeFactory> getTimeFactory() const override;
+#pragma GCC diagnostic pop
   rti1516e::FederateHandle decodeFederateHandle(
       rti1516e::VariableLengthData const& encodedValue) const override;
   rti1516e::ObjectClassHandle decodeObjectClassHandle(
