@@ -12,8 +12,6 @@ namespace {
 using namespace rti1516e;
 
 /// Both kinds, alike.
-template <class Kinds>
-class LogicalTimeKinds : public ::testing::Test {};
 struct Float64 {
   using Time = HLAfloat64Time;
   using Interval = HLAfloat64Interval;
@@ -26,18 +24,11 @@ struct Integer {
   using Factory = HLAinteger64TimeFactory;
   static constexpr const wchar_t* name = L"HLAinteger64Time";
 };
-struct KindNames {
-  template <class Kind>
-  static std::string GetName(int) {
-    return std::is_same_v<Kind, Float64> ? "Float64" : "Integer64";
-  }
-};
-using BothKinds = ::testing::Types<Float64, Integer>;
-TYPED_TEST_SUITE(LogicalTimeKinds, BothKinds, KindNames);
 
-TYPED_TEST(LogicalTimeKinds, TimesAndIntervalsAddAndCompare) {
-  using Time = typename TypeParam::Time;
-  using Interval = typename TypeParam::Interval;
+template <class Kind>
+void check_that_times_and_intervals_add_and_compare() {
+  using Time = typename Kind::Time;
+  using Interval = typename Kind::Interval;
   Time time(5);
   time += Interval(3);
   EXPECT_TRUE(time == Time(8));
@@ -50,10 +41,15 @@ TYPED_TEST(LogicalTimeKinds, TimesAndIntervalsAddAndCompare) {
   between -= Interval(5);
   EXPECT_TRUE(between.isZero());
 }
+TEST(LogicalTimeKinds, TimesAndIntervalsAddAndCompare) {
+  check_that_times_and_intervals_add_and_compare<Float64>();
+  check_that_times_and_intervals_add_and_compare<Integer>();
+}
 
-TYPED_TEST(LogicalTimeKinds, SumsDoNotLeaveTheRangeOfTime) {
-  using Time = typename TypeParam::Time;
-  using Interval = typename TypeParam::Interval;
+template <class Kind>
+void check_that_sums_do_not_leave_the_range_of_time() {
+  using Time = typename Kind::Time;
+  using Interval = typename Kind::Interval;
   Time last;
   last.setFinal();
   EXPECT_TRUE(last.isFinal());
@@ -65,23 +61,32 @@ TYPED_TEST(LogicalTimeKinds, SumsDoNotLeaveTheRangeOfTime) {
   EXPECT_THROW(step.setToDifference(Time(1), Time(2)), IllegalTimeArithmetic);
   EXPECT_TRUE(last.isFinal());
 }
+TEST(LogicalTimeKinds, SumsDoNotLeaveTheRangeOfTime) {
+  check_that_sums_do_not_leave_the_range_of_time<Float64>();
+  check_that_sums_do_not_leave_the_range_of_time<Integer>();
+}
 
-TYPED_TEST(LogicalTimeKinds, EpsilonIsTheLeastIntervalAboveZero) {
-  typename TypeParam::Interval least;
+template <class Kind>
+void check_that_epsilon_is_the_least_interval_above_zero() {
+  typename Kind::Interval least;
   least.setEpsilon();
   EXPECT_TRUE(least.isEpsilon());
   EXPECT_FALSE(least.isZero());
   EXPECT_GT(least.getInterval(), 0);
 }
+TEST(LogicalTimeKinds, EpsilonIsTheLeastIntervalAboveZero) {
+  check_that_epsilon_is_the_least_interval_above_zero<Float64>();
+  check_that_epsilon_is_the_least_interval_above_zero<Integer>();
+}
 
-TYPED_TEST(LogicalTimeKinds, EncodingsHaveEightBytesTheMostSignificantFirst) {
-  typename TypeParam::Factory factory;
-  const typename TypeParam::Time time(2);
+template <class Kind>
+void check_that_encodings_have_eight_bytes_the_most_significant_first() {
+  typename Kind::Factory factory;
+  const typename Kind::Time time(2);
   const VariableLengthData bytes = time.encode();
   ASSERT_EQ(bytes.size(), 8u);
-  const std::string expected = std::is_same_v<TypeParam, Float64>
-                                   ? std::string("\x40\0\0\0\0\0\0\0", 8)
-                                   : std::string("\0\0\0\0\0\0\0\2", 8);
+  const std::string expected = std::is_same_v<Kind, Float64> ? std::string("\x40\0\0\0\0\0\0\0", 8)
+                                                             : std::string("\0\0\0\0\0\0\0\2", 8);
   EXPECT_EQ(std::string(static_cast<const char*>(bytes.data()), 8), expected);
   EXPECT_TRUE(*factory.decodeLogicalTime(bytes) == time);
   EXPECT_THROW(factory.decodeLogicalTime(VariableLengthData("abc", 3)), CouldNotDecode);
@@ -89,16 +94,25 @@ TYPED_TEST(LogicalTimeKinds, EncodingsHaveEightBytesTheMostSignificantFirst) {
   EXPECT_THROW(factory.decodeLogicalTimeInterval(VariableLengthData("\xff\xff\xff\xff\0\0\0\1", 8)),
                CouldNotDecode);
 }
+TEST(LogicalTimeKinds, EncodingsHaveEightBytesTheMostSignificantFirst) {
+  check_that_encodings_have_eight_bytes_the_most_significant_first<Float64>();
+  check_that_encodings_have_eight_bytes_the_most_significant_first<Integer>();
+}
 
-TYPED_TEST(LogicalTimeKinds, TheFactoryOfANameMakesItsKind) {
-  const auto factory = HLAlogicalTimeFactoryFactory::makeLogicalTimeFactory(TypeParam::name);
+template <class Kind>
+void check_that_the_factory_of_a_name_makes_its_kind() {
+  const auto factory = HLAlogicalTimeFactoryFactory::makeLogicalTimeFactory(Kind::name);
   ASSERT_NE(factory.get(), nullptr);
-  EXPECT_EQ(factory->getName(), TypeParam::name);
-  EXPECT_EQ(factory->makeInitial()->implementationName(), TypeParam::name);
+  EXPECT_EQ(factory->getName(), Kind::name);
+  EXPECT_EQ(factory->makeInitial()->implementationName(), Kind::name);
   EXPECT_TRUE(factory->makeFinal()->isFinal());
   EXPECT_TRUE(factory->makeZero()->isZero());
   EXPECT_TRUE(factory->makeEpsilon()->isEpsilon());
   EXPECT_EQ(HLAlogicalTimeFactoryFactory::makeLogicalTimeFactory(L"HLAdays").get(), nullptr);
+}
+TEST(LogicalTimeKinds, TheFactoryOfANameMakesItsKind) {
+  check_that_the_factory_of_a_name_makes_its_kind<Float64>();
+  check_that_the_factory_of_a_name_makes_its_kind<Integer>();
 }
 
 TEST(LogicalTime, TheTwoKindsDoNotMix) {
