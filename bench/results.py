@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what bench/results.md asks for and writes it into docs/results.md, its first table also into README.md: one machine, one commit, each figure below its command."""
+"""Measures what bench/results.md asks for and writes it into docs/results.md, its first table also into README.md, with fewer comparisons: one machine, one commit, each figure below its command."""
 import argparse
 import csv
 import json
@@ -81,12 +81,24 @@ def rows_of(file):
         return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
+def short(lines):
+    """Those at the head of README.md: without the items that compare at a recall below that of the widest margins."""
+    kept, is_left_out = [], False
+    for line in lines:
+        is_left_out = WITHOUT_MARGIN in line or (is_left_out and line.startswith("  ")) if line.startswith(("- ", "  ")) else False
+        if not is_left_out:
+            kept.append(line)
+    return kept
+
+
 def three_digits(text):
     value = float(text)
     if value >= 100:
         return f"{value:.0f}"
     return f"{value:.1f}" if value >= 10 else f"{value:.2f}"
 
+
+WITHOUT_MARGIN = "without a margin"
 
 CROWD = [  # part, filter, policy, extrapolate, in words
     ("prompt", "none", "periodic", "0", "`periodic (paper)`: shown where they were said to be; in virtual time"),
@@ -140,7 +152,7 @@ def equal_error_lines(folder):
     lines = textwrap.wrap(f"*At equal displayed error and equal recall*, {first['clients']} clients under `{first['scheme']}` in virtual time: how many times the payload, and the bytes on the wire, of `on-event` at "
                           f"{float(first['tick_rate_hz']):g} Hz its rivals send, the best first, with 95 % intervals:", 160) + [""]
     for (delay, recall_is), block in blocks.items():
-        means = "without a margin" if recall_is == "own" else "by margins"
+        means = WITHOUT_MARGIN if recall_is == "own" else "by margins"
         lead = "- " + (f"{delay:g} ms of delay" if delay else "no delay") + f", recall {four_decimals(block[0]['recall'])} {means}: "
         lines += textwrap.wrap(lead + ", ".join(f"`{row['rival']}` {ratio_text(row, 'payload', 'end')} and {ratio_text(row, 'wire', 'wire_end')}" for row in block), 160, subsequent_indent="  ", break_on_hyphens=False)
     return lines + ["", *textwrap.wrap(caveats(folder, rows, blocks), 160, break_on_hyphens=False)]
@@ -194,7 +206,7 @@ def saturation_lines(file):
 def provenance_lines(folder, *others):
     """What made the report in `folder`, and with which flags the programs that wrote `others`, files with provenance at their head, were built."""
     facts = json.loads((folder / "provenance.json").read_text())
-    for told_elsewhere in ("schema", "command"):
+    for told_elsewhere in ("schema", "command", "packages"):
         facts.pop(told_elsewhere, None)
     for other in others:
         with open(other) as lines:
@@ -239,8 +251,8 @@ def page_of(template, measurements):
         end = source.index("```", at)
         asked = joined(source[at + 1:end])
         if fence[1] == "crowd":
-            head = [BEGIN, *crowd_table(ROOT / asked), END]
-            lines += head
+            lines += [BEGIN, *crowd_table(ROOT / asked), END]
+            head = [BEGIN, *short(crowd_table(ROOT / asked)), END]
         elif fence[1] == "provenance":
             lines += ["```", *provenance_lines(*(ROOT / name for name in asked.split())), "```"]
         elif fence[1] == "saturation":

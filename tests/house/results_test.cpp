@@ -153,7 +153,10 @@ TEST_F(Results, OfTheCrowdStandInTheReadmeToo) {
 
 TEST_F(Results, AtEqualErrorSayOfWhatCrowdAndRecallAndHaveAnIntervalEach) {
   ASSERT_EQ(run(report()), 0) << said();
-  const std::string words = unfolded(content("README.md"));
+  const std::string words = unfolded(content("docs/results.md")),
+                    short_words = unfolded(content("README.md"));
+  EXPECT_THAT(short_words,
+              AllOf(HasSubstr("recall 0.9990 by margins: "), Not(HasSubstr("without a margin"))));
   EXPECT_THAT(words, HasSubstr("32 clients under `region` in virtual time"));
   for (const char* at :
        {"- no delay, recall 0.9866 without a margin: ", "- no delay, recall 0.9990 by margins: ",
@@ -294,7 +297,13 @@ TEST(Readme, QuotesThePageOfResultsAlone) {
   const std::string readme = test::text_of(test::source_folder() + "/README.md"),
                     page = test::text_of(test::source_folder() + "/docs/results.md");
   EXPECT_GT(between(page).size(), 500u);
-  EXPECT_EQ(between(readme), between(page)) << "./rink results writes both";
+  std::istringstream quoted(between(readme));
+  std::size_t at = 0, count = 0;
+  for (std::string line; std::getline(quoted, line); ++count) {
+    at = page.find("\n" + line + "\n", at);
+    ASSERT_NE(at, std::string::npos) << "./rink results writes both: " << line;
+  }
+  EXPECT_GT(count, 12u);
 }
 
 TEST(PageOfResults, HoldsWhatItsTemplateAsksForWithinThreeThousandWords) {
