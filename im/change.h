@@ -10,9 +10,10 @@ namespace rink::im {
 using Entity = std::uint32_t;
 using Subscriber = std::uint32_t;
 
-enum class Transition : std::uint8_t { entered, left, tier_changed };
+enum class Transition : std::uint8_t { entered, left, tier_changed, due };
 
-/// `entity` became relevant to `subscriber`, stopped being relevant, or stays so in another tier.
+/// `entity` became relevant to `subscriber`, stopped being relevant, or stays so in another tier;
+/// `due`: it stays so, and its newest state is told now, where a stage holds updates back.
 struct Change {
   Subscriber subscriber;
   Entity entity;

@@ -130,6 +130,13 @@ std::optional<Rejection> CheckedFilter::fly_subscriber(Subscriber subscriber,
   return std::nullopt;
 }
 
+std::optional<Rejection> CheckedFilter::note_update(Entity entity) {
+  if (!contains(entities_, entity))
+    return Rejection{Fault::unknown_id, Subject::update_region, entity};
+  filter_->note_update(entity);
+  return std::nullopt;
+}
+
 std::optional<Rejection> CheckedFilter::set_time(double now) {
   if (const auto fault = fault_of({now})) return Rejection{*fault, Subject::clock};
   if (now < now_) return Rejection{Fault::goes_back, Subject::clock};

@@ -54,6 +54,8 @@ class CheckedFilter {
   /// 1e150.
   std::optional<Rejection> fly_entity(Entity entity, const Flight& flight);
   std::optional<Rejection> fly_subscriber(Subscriber subscriber, const Flight& flight);
+  /// Rejected if the entity does not exist.
+  std::optional<Rejection> note_update(Entity entity);
   /// Rejected if the time is not finite, beyond 1e150 or before the last one.
   std::optional<Rejection> set_time(double now);
 

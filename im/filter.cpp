@@ -26,7 +26,8 @@
   SCHEME(sight)              \
   SCHEME(strips)             \
   SCHEME(team)               \
-  SCHEME(tiles)
+  SCHEME(tiles)              \
+  SCHEME(zones)
 
 namespace rink::im {
 

@@ -54,8 +54,9 @@ struct Role {
 /// other facts.
 struct Traits {
   bool uses_roles = false, uses_headings = false, uses_flights = false, decides_tiers = false;
-  bool uses_facts = false,  ///< `Facts`
-      uses_time = false;    ///< the time of `set_time`, against which the facts' times count
+  bool uses_facts = false,    ///< `Facts`
+      uses_time = false,      ///< the time of `set_time`, against which the facts' times count
+      holds_updates = false;  ///< updates of relevant pairs wait until the pair is `due`
 };
 
 /// The kinds of things that conditions tell apart (docs/im.md, "Conditions").
@@ -134,6 +135,10 @@ class Filter {
   virtual void set_entity_facts(Entity, const Facts&) {}
   virtual void set_subscriber_facts(Subscriber, const Facts&) {}
 
+  /// Something of `entity` was updated since the last match, for stages that hold updates back. An
+  /// unknown entity is ignored; so is one that is new, of which all is told.
+  virtual void note_update(Entity) {}
+
   /// Sets a region that sweeps in a straight line from `from` to `to`, rectangles of one size:
   /// every pair that would be relevant anywhere in between is relevant, and perhaps more. By
   /// default the region is the rectangle around both; a scheme whose shape in it would miss some
@@ -180,8 +185,9 @@ struct FilterSettings {
   double nimbus_radius = 0.0;    ///< of the scheme `nimbus` [m]; 0: that of the focus
   double awareness = 0.0;        ///< at which an entity matters there, 0 to 1
   std::uint32_t tile_steps = 4;  ///< of the scheme `tiles`, up to 64
-  std::vector<Disc> posts{};     ///< discs that block the view [m]
-  double drag = 0.0;             ///< of all flights: dv/dt = -drag v [1/s]
+  std::uint32_t zone_capacity = 32;  ///< of the scheme `zones`: with more entities a zone is cut
+  std::vector<Disc> posts{};         ///< discs that block the view [m]
+  double drag = 0.0;                 ///< of all flights: dv/dt = -drag v [1/s]
   std::span<const rink_plugin* const> plugins{};  ///< that expressions may name; they outlive the
                                                   ///< filter
 };

@@ -1,7 +1,11 @@
 // Builds the filters that expressions describe.
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "im/basics/fnv_hash.h"
 #include "im/basics/hexadecimal.h"
@@ -65,14 +69,6 @@ std::unique_ptr<Filter> build_combination(const Expression& expression,
   return make_combination(std::move(operands), std::move(steps));
 }
 
-/// The first stage `swept` in `expression`, or nothing.
-const Expression* swept_in(const Expression& expression) {
-  if (expression.kind == Kind::stage && expression.name == "swept") return &expression;
-  for (const Expression& operand : expression.operands)
-    if (const Expression* const found = swept_in(operand)) return found;
-  return nullptr;
-}
-
 std::unique_ptr<PairFunction> build_function(const Expression& owner,
                                              const FilterSettings& settings) {
   if (owner.is_plugin) return make_plugin_function(*plugin_of(owner, settings));
@@ -80,6 +76,24 @@ std::unique_ptr<PairFunction> build_function(const Expression& owner,
   auto function = compile_condition(owner.function, wanted_of(owner), fault);
   assert(function != nullptr);  // judged texts compile
   return function;
+}
+
+/// Of what a stage may hold back.
+constexpr double unbounded = std::numeric_limits<double>::max();
+
+std::vector<ConsistencyZone> zones_of(const Expression& stage) {
+  const std::vector<double> at = stage.parameters_called("at"),
+                            matches = stage.parameters_called("matches"),
+                            updates = stage.parameters_called("updates"),
+                            distance = stage.parameters_called("distance");
+  const auto bound = [](const std::vector<double>& of, std::size_t zone) {
+    return of.empty() ? unbounded : of[zone];
+  };
+  std::vector<ConsistencyZone> zones;
+  zones.reserve(at.size());
+  for (std::size_t zone = 0; zone < at.size(); ++zone)
+    zones.push_back({at[zone], bound(matches, zone), bound(updates, zone), bound(distance, zone)});
+  return zones;
 }
 
 std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSettings& settings) {
@@ -104,6 +118,11 @@ std::unique_ptr<Filter> build_stage(const Expression& stage, const FilterSetting
                            static_cast<std::uint32_t>(stage.parameter("k", 5.0)),
                            static_cast<unsigned>(stage.parameter("guidance", 5.0)));
   }
+  if (stage.name == "vfc") return make_vfc(build_inner(), zones_of(stage));
+  if (stage.name == "dyconits")
+    return make_dyconits(build_inner(), settings.world,
+                         {stage.parameter("cell_size", 1.0), stage.parameter("matches", unbounded),
+                          stage.parameter("error", unbounded)});
   if (stage.name == "von") return make_von(build_inner(), stage.parameter("area", 1.0));
   if (is_rank(stage))
     return make_rank(build_inner(),
@@ -139,6 +158,8 @@ std::unique_ptr<Filter> build_filter(const Expression& expression, const FilterS
   own.half_angle_deg = expression.parameter("half_angle", settings.half_angle_deg);
   own.nimbus_radius = expression.parameter("radius", settings.nimbus_radius);
   own.awareness = expression.parameter("awareness", settings.awareness);
+  own.zone_capacity =
+      static_cast<std::uint32_t>(expression.parameter("capacity", settings.zone_capacity));
   own.tile_steps = static_cast<std::uint32_t>(expression.parameter("steps", settings.tile_steps));
   auto scheme = make_scheme(expression.name, own);
   assert(scheme != nullptr);  // judged names are registered

@@ -183,6 +183,14 @@ double Expression::parameter(std::string_view key, double otherwise) const {
   return otherwise;
 }
 
+std::vector<double> Expression::parameters_called(std::string_view key) const {
+  std::vector<double> values;
+  values.reserve(parameters.size());
+  for (const Parameter& each : parameters)
+    if (each.key == key) values.push_back(each.value);
+  return values;
+}
+
 std::string read_expression(std::string_view text, Expression& expression,
                             Expression::Place* place) {
   if (text.size() > expression_size_max) {

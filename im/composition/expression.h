@@ -49,6 +49,8 @@ struct Expression {
 
   /// That of `key`, or `otherwise`.
   double parameter(std::string_view key, double otherwise) const;
+  /// All those of `key`, as written.
+  std::vector<double> parameters_called(std::string_view key) const;
 };
 
 /// True of `when` and `anywhere`, which a function follows.

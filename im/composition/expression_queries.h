@@ -17,6 +17,20 @@ inline bool is_rank(const Expression& expression) {
           expression.name == "von");
 }
 
+/// True of the stages that hold updates of relevant pairs back.
+inline bool holds_updates(const Expression& expression) {
+  return expression.kind == Expression::Kind::stage &&
+         (expression.name == "dyconits" || expression.name == "vfc");
+}
+
+/// The first stage `swept` in `expression`, or nothing.
+inline const Expression* swept_in(const Expression& expression) {
+  if (expression.kind == Expression::Kind::stage && expression.name == "swept") return &expression;
+  for (const Expression& operand : expression.operands)
+    if (const Expression* const found = swept_in(operand)) return found;
+  return nullptr;
+}
+
 /// A part that a combination takes as one operand.
 inline bool is_operand(const Expression& expression) {
   return expression.kind == Expression::Kind::scheme || expression.kind == Expression::Kind::stage;

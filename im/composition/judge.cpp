@@ -29,6 +29,9 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"donnybrook", "guidance", 1.0, 6.0, true, false, false},
                           Key{"donnybrook", "k", 1.0, 1e6, true, false, false},
                           Key{"dwell", "matches", 1.0, 100'000.0, true, true, false},
+                          Key{"dyconits", "cell_size", 1e-3, 1e6, false, true, false},
+                          Key{"dyconits", "error", 0.0, metres_max, false, false, false},
+                          Key{"dyconits", "matches", 0.0, 100'000.0, true, false, false},
                           Key{"grid", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hex", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"hierarchical", "cell_size", 1e-3, 1e6, false, false, false},
@@ -48,9 +51,14 @@ constexpr std::array keys{Key{"cone", "half_angle", 0.0, 180.0, false, false, fa
                           Key{"tiles", "cell_size", 1e-3, 1e6, false, false, false},
                           Key{"tiles", "steps", 0.0, 64.0, true, false, false},
                           Key{"top", "k", 1.0, 1e6, true, true, false},
-                          Key{"von", "area", 0.0, 1.0, false, false, false}};
-constexpr std::array stages{"donnybrook", "dwell", "hysteresis", "nearest", "priority",
-                            "psense",     "swept", "tiers",      "top",     "von"};
+                          Key{"vfc", "at", 0.0, 1.0, false, true, true},
+                          Key{"vfc", "distance", 0.0, metres_max, false, false, true},
+                          Key{"vfc", "matches", 0.0, 100'000.0, true, false, true},
+                          Key{"vfc", "updates", 0.0, 100'000.0, true, false, true},
+                          Key{"von", "area", 0.0, 1.0, false, false, false},
+                          Key{"zones", "capacity", 1.0, 1e6, true, false, false}};
+constexpr std::array stages{"donnybrook", "dwell", "dyconits", "hysteresis", "nearest", "priority",
+                            "psense",     "swept", "tiers",    "top",        "vfc",     "von"};
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -92,6 +100,23 @@ std::string judge_parameter(const Expression& owner, std::size_t i) {
          (known.empty() ? ", nor any other" : "; it has " + listed(known));
 }
 
+/// The fault of the bounds of a stage that holds updates back.
+std::string judge_bounds(const Expression& owner) {
+  if (!holds_updates(owner)) return {};
+  const std::size_t zones = owner.parameters_called("at").size();
+  bool has_bound = false;
+  for (const char* const bound : {"distance", "error", "matches", "updates"}) {
+    const std::size_t count = owner.parameters_called(bound).size();
+    has_bound |= count > 0;
+    if (owner.name == "vfc" && count > 0 && count != zones)
+      return "vfc: " + std::to_string(count) + " of " + bound + " for " + std::to_string(zones) +
+             " of at: each zone has its own, or none has any";
+  }
+  if (has_bound) return {};
+  return owner.name + " needs a bound: " +
+         (owner.name == "vfc" ? "matches, updates or distance" : "matches or error");
+}
+
 std::string judge_parameters(const Expression& owner) {
   for (std::size_t i = 0; i < owner.parameters.size(); ++i)
     if (std::string complaint = judge_parameter(owner, i); !complaint.empty()) return complaint;
@@ -101,7 +126,7 @@ std::string judge_parameters(const Expression& owner) {
       return owner.name + " needs " + key.key + "=NUMBER";
   if (owner.name == "tiers" && owner.parameters.size() >= PairStates::filter_max)
     return "tiers: more than 15 of them";
-  return {};
+  return judge_bounds(owner);
 }
 
 std::size_t operand_count(const Expression& expression) {
@@ -121,6 +146,7 @@ std::string judge_settings(const FilterSettings& settings) {
     return "the radius of nimbi is not a finite number from 0";
   if (!(settings.awareness >= 0.0 && settings.awareness <= 1.0))
     return "the awareness at which an entity matters is not a number from 0 to 1";
+  if (settings.zone_capacity == 0) return "the capacity of a zone is not a number from 1";
   if (settings.tile_steps > 64) return "the steps between tiles are not a number from 0 to 64";
   if (!(settings.drag >= 0.0) || !std::isfinite(settings.drag))
     return "the drag of flights is not a finite number from 0";
@@ -163,6 +189,11 @@ std::string judge_plugins(const Expression& expression, const FilterSettings& se
          (is_score ? "score, which belongs after by" : "predicate, which belongs after when");
 }
 
+bool names_zones(const Expression& expression) {
+  return (expression.kind == Kind::scheme && expression.name == "zones") ||
+         std::any_of(expression.operands.begin(), expression.operands.end(), names_zones);
+}
+
 /// The first stage that ranks in `expression`, or nothing.
 const Expression* rank_in(const Expression& expression) {
   if (is_rank(expression)) return &expression;
@@ -194,12 +225,19 @@ std::string judge_own(const Expression& expression, Expression::Place* place = n
     if (const Expression* const rank = rank_in(expression); rank && expression.name == "swept")
       return "swept cannot follow " + rank->name +
              ": which are first anywhere on the way is not known";
+    if (expression.name == "swept" && names_zones(expression))
+      return "swept cannot follow zones: which zones there will be on the way is not known";
+    if (holds_updates(expression) && swept_in(expression))
+      return expression.name +
+             " cannot follow swept: how far an entity in flight is from what was "
+             "told is not known";
   } else if (operand_count(expression) >= PairStates::filter_max) {
     return "more than 15 schemes in one combination";
   }
   for (const Expression& operand : expression.operands) {
     const bool has_tiers =
-        operand.kind == Kind::stage && (operand.name == "tiers" || operand.name == "donnybrook");
+        operand.kind == Kind::stage &&
+        (operand.name == "tiers" || operand.name == "donnybrook" || holds_updates(operand));
     const bool is_last = has_tiers || (operand.kind == Kind::stage && operand.name == "priority");
     if (is_last && !(has_tiers && expression.name == "priority"))
       return "after " + operand.name + " nothing may follow" + (has_tiers ? " but priority" : "") +

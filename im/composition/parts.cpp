@@ -67,6 +67,9 @@ void Parts::set_entity_facts(Entity entity, const Facts& facts) {
 void Parts::set_subscriber_facts(Subscriber subscriber, const Facts& facts) {
   for (const auto& part : parts_) part->set_subscriber_facts(subscriber, facts);
 }
+void Parts::note_update(Entity entity) {
+  for (const auto& part : parts_) part->note_update(entity);
+}
 void Parts::share_with(Worker* worker) {
   for (const auto& part : parts_) part->share_with(worker);
 }
@@ -77,7 +80,8 @@ Traits Parts::traits() const {
     const Traits own = part->traits();
     all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings,
         all.uses_flights |= own.uses_flights, all.decides_tiers |= own.decides_tiers,
-        all.uses_facts |= own.uses_facts, all.uses_time |= own.uses_time;
+        all.uses_facts |= own.uses_facts, all.uses_time |= own.uses_time,
+        all.holds_updates |= own.holds_updates;
   }
   return all;
 }

@@ -32,6 +32,7 @@ class Parts : public Filter {
   void set_time(double now) override;
   void set_entity_facts(Entity entity, const Facts& facts) override;
   void set_subscriber_facts(Subscriber subscriber, const Facts& facts) override;
+  void note_update(Entity entity) override;
   /// They match one after the other, so one worker serves them all.
   void share_with(Worker* worker) override;
 

@@ -89,6 +89,7 @@ void PriorityOrder::take(std::span<const Change> changes) {
     Buffer<Entry>& entries = entries_[change.subscriber];
     Entry* const entry = find(change.subscriber, change.entity);
     assert((entry == nullptr) == (change.transition == Transition::entered));
+    if (change.transition == Transition::due) continue;
     if (change.transition == Transition::tier_changed) {
       entry->tier = change.tier;
     } else if (change.transition == Transition::left) {

@@ -56,6 +56,32 @@ std::unique_ptr<Filter> make_donnybrook(std::unique_ptr<Filter> inner,
                                         std::unique_ptr<Filter> own, std::uint32_t count,
                                         unsigned guidance_tier);
 
+/// What may be held back of an entity whose middle is farther than `from` times the radius of the
+/// subscription's disc, at most; without a bound the largest number.
+struct ConsistencyZone {
+  double from;
+  double matches, updates;  ///< since what was told was the newest
+  double distance;          ///< from where it was then [m]
+};
+
+/// Holds updates back: within every zone all is told at once, in a zone as soon as one of its
+/// bounds is exceeded (Santos, Veiga & Ferreira 2007). `zones`, at least one, ascend.
+std::unique_ptr<Filter> make_vfc(std::unique_ptr<Filter> inner, std::vector<ConsistencyZone> zones);
+
+/// What may be held back in a cell at most, for each step from the subscriber's cell to it; without
+/// a bound the largest number.
+struct DyconitBounds {
+  double cell_size;  ///< [m]
+  double matches;    ///< since all that was told was the newest
+  double error;      ///< the sum of all ways since then [m]
+};
+
+/// Holds updates back: all those of a cell are told as soon as one of its bounds is exceeded, those
+/// of the subscriber's own cell at once. Cells count from the low corner of `world`; a pair is in
+/// that of its entity's middle (Donkervliet et al. 2021).
+std::unique_ptr<Filter> make_dyconits(std::unique_ptr<Filter> inner, const Region& world,
+                                      const DyconitBounds& bounds);
+
 /// Orders relevant entities by urgency (im/stages/priority_order.h), for senders of at most
 /// `budget` bytes to a subscriber between two matches; 0: no limit.
 std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget);

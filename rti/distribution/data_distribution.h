@@ -136,10 +136,12 @@ class DataDistribution {
   virtual void set_facts(ObjectSlot, const im::Facts&) {}
   virtual void set_federate_facts(std::uint32_t /*federate*/, const im::Facts&) {}
   virtual void set_time(double /*now*/) {}
+  /// Some attributes of the object were updated, which filters that hold updates back count.
+  virtual void object_updated(ObjectSlot) {}
 
-  /// For filters that decide tiers or have a budget: fills `turns->waiting` with the objects that
-  /// this flush leaves out because their tier's turn has not come. Called once for each flush of a
-  /// federate that has `turns`.
+  /// For filters that decide tiers, hold updates back or have a budget: fills `turns->waiting` with
+  /// the objects that this flush leaves out because their tier's turn has not come. Called once for
+  /// each flush of a federate that has `turns`.
   virtual void plan_turns(std::uint32_t /*federate*/) {}
   /// Adds the objects that do not fit into the budget; `bytes_due(object)` is what sending one
   /// takes, 0 if nothing is due. False if there is no budget.

@@ -193,6 +193,12 @@ void Interest::set_flight(ObjectSlot slot, const im::Flight& flight) {
     facts_.set_flight(regions_[each.region], flight);
 }
 
+void Interest::object_updated(ObjectSlot slot) {
+  if (!planner_.holds_updates()) return;
+  const RegionTable::Use& used = regions_.use_of(slot);
+  if (used.entity != RegionTable::no_entity) filter_->note_update(used.entity);
+}
+
 void Interest::set_facts(ObjectSlot slot, const im::Facts& facts) {
   if (!facts_.are_facts_used()) return;
   for (const Association& each : regions_.associations_of(slot))

@@ -73,6 +73,7 @@ class Interest : public DataDistribution {
   void set_facts(ObjectSlot slot, const im::Facts& facts) override;
   void set_federate_facts(std::uint32_t federate, const im::Facts& facts) override;
   void set_time(double now) override { facts_.set_time(now); }
+  void object_updated(ObjectSlot slot) override;
   void plan_turns(std::uint32_t federate) override { planner_.plan_turns(scopes_.of(federate)); }
   bool has_budget() const override { return planner_.has_budget(); }
   void share_out(std::uint32_t federate, const BytesDue& bytes_due) override;

@@ -24,13 +24,26 @@ void ScopeMatcher::apply_filter_changes(std::span<const im::Change> changes) {
   // All memberships come first: the attributes in scope may depend on several regions.
   Subscriptions& subscriptions = parts_.subscriptions;
   const bool decides_tiers = parts_.turns.decides_tiers();
-  for (const im::Change& each : changes) subscriptions.take(each, decides_tiers);
+  const auto is_due = [](const im::Change& each) { return each.transition == im::Transition::due; };
+  for (const im::Change& each : changes)
+    if (!is_due(each)) subscriptions.take(each, decides_tiers);
   for (const im::Change& each : changes) {
+    if (is_due(each)) {
+      prompt(each);
+      continue;
+    }
     const DeclaredInterest& declared = subscriptions.of(subscriptions.federate_of(each.subscriber));
     if (declared.is_changed) continue;
     for (const ObjectSlot slot : parts_.regions.of_entity(each.entity).objects)
       reconsider(declared, slot);
   }
+}
+
+/// What was held back of the entity waits no longer.
+void ScopeMatcher::prompt(const im::Change& due) {
+  FederateInterest& interest = parts_.scopes.of(parts_.subscriptions.federate_of(due.subscriber));
+  for (const ObjectSlot slot : parts_.regions.of_entity(due.entity).objects)
+    if (interest.in_scope.contains(slot)) interest.turns->prompt.insert(slot);
 }
 
 void ScopeMatcher::apply_changed_regions(std::vector<ObjectSlot>& changed) {
@@ -193,7 +206,7 @@ void ScopeMatcher::reconsider(const DeclaredInterest& declared, ObjectSlot slot)
 void ScopeMatcher::settle(const DeclaredInterest& declared, FederateInterest& interest,
                           ObjectSlot slot, AttributeSet is) {
   const AttributeSet was = interest.attributes_in_scope(slot, parts_.objects[slot].object_class);
-  if (parts_.turns.decides_tiers() && !is.is_empty())
+  if (parts_.turns.places_objects() && !is.is_empty())
     parts_.turns.place(*interest.turns, declared, slot, was.is_empty());
   // An object whose scope is as before is touched, too: its subscription may be passive now.
   if (was != is || !is.is_empty()) parts_.scopes.touch(slot);

@@ -17,6 +17,7 @@ TurnPlanner::TurnPlanner(im::Filter& filter, const ObjectTable& objects, const R
       subscriptions_(subscriptions),
       facts_(facts),
       decides_tiers_(filter.traits().decides_tiers),
+      holds_updates_(filter.traits().holds_updates),
       budget_(filter.priority() ? filter.priority()->budget() : 0) {}
 
 /// True if the object is in scope by a subscription on which the filter does not decide.
@@ -31,6 +32,12 @@ bool TurnPlanner::never_waits(const DeclaredInterest& declared, ObjectSlot slot)
            return !each.is_placed && !each.classes.expanded[object_class].is_empty() &&
                   subscriptions_.is_within(each, used.region);
          });
+}
+
+/// Held while no subscription without bounds has it in scope.
+bool TurnPlanner::is_held(const DeclaredInterest& declared, ObjectSlot slot) const {
+  return holds_updates_ && regions_.use_of(slot).entity != RegionTable::no_entity &&
+         !never_waits(declared, slot);
 }
 
 std::uint32_t TurnPlanner::tier_of(const DeclaredInterest& declared, ObjectSlot slot) const {
@@ -49,9 +56,14 @@ std::uint32_t TurnPlanner::tier_of(const DeclaredInterest& declared, ObjectSlot 
 
 void TurnPlanner::place(Turns& turns, const DeclaredInterest& declared, ObjectSlot slot,
                         bool is_new) const {
-  assert(decides_tiers_);
+  assert(places_objects());
   const std::uint32_t tier = tier_of(declared, slot);
   bool is_changed = false;
+  if (const bool is_held_now = is_held(declared, slot); is_held_now != turns.held.contains(slot)) {
+    is_changed = true;
+    if (is_held_now) turns.held.insert(slot);
+    else turns.held.erase(slot);
+  }
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {
     Bitmap& tiers = turns.tiers[k - 1];
     if (tiers.contains(slot) == (k == tier)) continue;
@@ -66,6 +78,9 @@ void TurnPlanner::plan_turns(FederateInterest& interest) const {
   assert(is_needed() && interest.turns);
   Turns& turns = *interest.turns;
   turns.waiting.clear();
+  for (std::size_t i = 0; i < turns.held.word_count(); ++i)
+    turns.waiting.insert_word(i, turns.held.word(i) & interest.in_scope.word(i) &
+                                     ~interest.needs_full_state.word(i) & ~turns.prompt.word(i));
   const std::uint64_t number = turns.number > 0 ? turns.number : match_;
   for (std::uint32_t k = 1; k <= Turns::tier_max; ++k) {
     const Bitmap& tier = turns.tiers[k - 1];
@@ -86,8 +101,12 @@ void TurnPlanner::share_out(FederateInterest& interest,
   const std::size_t budget = turns.shared_out == match_ ? 0 : budget_;
   turns.shared_out = match_;
   fill(interest, bytes_due, budget);
-  for (std::size_t i = 0; i < put_off_.word_count(); ++i)
-    turns.waiting.insert_word(i, put_off_.word(i) & ~sent_.word(i) & interest.in_scope.word(i));
+  for (std::size_t i = 0; i < put_off_.word_count(); ++i) {
+    const std::uint64_t left_out = put_off_.word(i) & ~sent_.word(i) & interest.in_scope.word(i);
+    // The filter takes what it called due for told, and will not say so again.
+    turns.prompt.insert_word(i, left_out & turns.held.word(i) & ~turns.waiting.word(i));
+    turns.waiting.insert_word(i, left_out);
+  }
 }
 
 /// Lists what fits into the budget, and what does not.

@@ -10,16 +10,17 @@
 
 namespace rink::rti {
 
-/// One federate's turns, under a filter that decides tiers or has a budget. Sets of objects by
-/// slot.
+/// One federate's turns, under a filter that decides tiers, holds updates back or has a budget.
+/// Sets of objects by slot.
 struct Turns {
   /// An object in tier k is updated every 2^k-th match, at most this k: objects take turns by their
   /// slots, and the turns of 64 of them fit a word.
   static constexpr std::uint32_t tier_max = 6;
 
   std::array<Bitmap, tier_max> tiers;  ///< in scope and in tier 1, 2 ...; the others are in tier 0
-  Bitmap
-      prompt;  ///< changed their tiers since the last flush: what is late of them waits no longer
+  Bitmap held;                         ///< updated when they are due alone
+  Bitmap prompt;  ///< changed their tiers or became due since the last flush: what is late of them
+                  ///< waits no longer
   std::uint64_t number =
       0;  ///< of the federate's turn, if it is not updated at every match; else 0
   std::uint64_t shared_out = 0;  ///< the match whose budget is spent

@@ -69,15 +69,18 @@ constexpr std::array expressions{"region",
                                  "not (region or cone) and not team",
                                  "none with psense",
                                  "hybrid with psense(vision=0.5)",
+                                 "zones(capacity=2)",
                                  "none with von(area=0.5)",
                                  "none with donnybrook(k=2 guidance=3) with priority",
                                  "region with swept(horizon=0.5 drag=0.25)",
                                  "aura with tiers(at=0.3 at=0.6) with priority",
                                  "region with hysteresis(margin=0.5)",
                                  "cone with dwell(matches=3)",
+                                 "region with vfc(at=0.5 matches=2 distance=1) with priority",
+                                 "hybrid with dyconits(cell_size=2 error=0.5)",
                                  "(aura or always) with swept(horizon=1 disc=1) with "
                                  "hysteresis(margin=1) with dwell(matches=2) with tiers(at=0.5)"};
-constexpr std::size_t forgetful_count = 20;
+constexpr std::size_t forgetful_count = 21;
 
 im::FilterSettings settings() {
   return {.world = world,
@@ -93,7 +96,7 @@ class Stream {
       : filter_(im::make_filter(expression, settings()), id_limit) {}
 
   void step(Input& input) {
-    const unsigned what = input.byte() % 12;
+    const unsigned what = input.byte() % 13;
     const std::uint32_t id = input.byte() % (id_limit + 2);
     switch (what) {
       case 0:
@@ -125,6 +128,9 @@ class Stream {
         break;
       case 10:
         fly(id, input);
+        break;
+      case 11:
+        filter_.note_update(id);
         break;
       default:
         match();

@@ -49,7 +49,7 @@ void tick(Filter& filter, int time) {
     return Region{x - half, y - half, x + half, y + half};
   };
   for (Entity entity = 0; entity < 500; ++entity)
-    filter.set_update_region(entity, place(entity, 0.1));
+    filter.set_update_region(entity, place(entity, 0.1)), filter.note_update(entity);
   for (Subscriber subscriber = 0; subscriber < 50; ++subscriber)
     filter.set_subscription_region(subscriber, place(subscriber, 10.0));
   filter.match();
@@ -61,7 +61,8 @@ TEST(Filter, AllocatesNothingInTheSteadyState) {
                                "region with hysteresis(margin=1) with dwell(matches=3)",
                                "aura with swept(horizon=1) with tiers(at=0.3 at=0.6) with priority",
                                "region with psense(vision=0.5)", "region with von(area=0.5)",
-                               "region with donnybrook(k=3)"})
+                               "region with donnybrook(k=3)", "region with vfc(at=0.2 matches=2)",
+                               "region with dyconits(cell_size=9 error=1)"})
     all.emplace_back(composed);
   for (const std::string& name : all) {
     const auto filter = make_filter(name, {.world = {0.0, 0.0, 110.0, 100.0}});

@@ -71,10 +71,10 @@ TEST_P(EveryScheme, ReplaysToTheRecountWhereAllDriftSlowly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Im, EveryScheme, testing::ValuesIn(filter_names()),
+INSTANTIATE_TEST_SUITE_P(Im, EveryScheme, testing::ValuesIn(schemes_of_pairs()),
                          [](const auto& info) { return info.param; });
 INSTANTIATE_TEST_SUITE_P(Im, EverySchemeLong,
-                         testing::Combine(testing::ValuesIn(filter_names()),
+                         testing::Combine(testing::ValuesIn(schemes_of_pairs()),
                                           testing::Range<std::uint64_t>(0, 4)),
                          [](const auto& info) {
                            return std::get<0>(info.param) + "_" +

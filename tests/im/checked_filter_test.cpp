@@ -100,7 +100,8 @@ TEST_P(Strangers, ChangeNothingByAMistake) {
 std::vector<std::string> all_kinds() {
   std::vector<std::string> kinds = filter_names();
   for (const char* stage : {"hysteresis(margin=0.5)", "dwell(matches=1)", "tiers(at=0.5)",
-                            "swept(horizon=1)", "priority", "psense", "von", "donnybrook"})
+                            "swept(horizon=1)", "priority", "psense", "von", "donnybrook",
+                            "vfc(at=0.5 matches=1)", "dyconits(cell_size=1 error=0)"})
     for (const char* scheme : {"region", "(aura or cone) and not (team and grid) or always"})
       kinds.push_back(std::string(scheme) + " with " + stage);
   return kinds;

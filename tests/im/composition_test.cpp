@@ -29,7 +29,7 @@ struct Composed {
 Composed draw(Random& random, int depth, const FilterSettings& settings) {
   const double kind = depth == 0 ? 0.0 : between(random, 0.0, 4.0);
   if (kind < 1.0) {
-    static const std::vector<std::string> names = filter_names();
+    static const std::vector<std::string> names = schemes_of_pairs();
     const std::string& name =
         names[static_cast<std::size_t>(between(random, 0.0, static_cast<double>(names.size())))];
     return {name, rule_of(name, settings)};
@@ -153,7 +153,7 @@ TEST(Traits, SayWhatAFilterMakesUseOf) {
     const Traits traits = make_filter(expression, {})->traits();
     return std::string(traits.uses_roles ? "roles " : "") +
            (traits.uses_headings ? "headings " : "") + (traits.uses_flights ? "flights " : "") +
-           (traits.decides_tiers ? "tiers" : "");
+           (traits.decides_tiers ? "tiers" : "") + (traits.holds_updates ? "held" : "");
   };
   for (const char* plain : {"none", "region", "aura and not sight",
                             "grid with hysteresis(margin=1) with dwell(matches=3) with priority"})
@@ -162,6 +162,7 @@ TEST(Traits, SayWhatAFilterMakesUseOf) {
   EXPECT_EQ(of("(region and not cone) with hysteresis(margin=1)"), "headings ");
   EXPECT_EQ(of("(always or cone) with swept(horizon=1) with tiers(at=0.5) with priority"),
             "roles headings flights tiers");
+  EXPECT_EQ(of("region with vfc(at=0.5 matches=3) with priority"), "held");
 }
 
 TEST(Expression, IsRefusedByNameWhereItIsWrong) {
@@ -218,6 +219,9 @@ TEST(Expression, IsTaughtByNameWithItsParameters) {
   EXPECT_EQ(usage_of("aura"), "aura");
   EXPECT_EQ(usage_of("cone"), "cone([half_angle=0..180])");
   EXPECT_EQ(usage_of("tiers"), "tiers(at=0.000001..1 ...)");
+  EXPECT_EQ(usage_of("vfc"),
+            "vfc(at=0..1 ... [distance=0..1000000000 ...] [matches=0..100000 ...] "
+            "[updates=0..100000 ...])");
   EXPECT_EQ(usage_of("swept"), "swept([disc=0..1] [drag=0..1000000] horizon=0..1000000)");
 }
 

@@ -30,9 +30,10 @@ INSTANTIATE_TEST_SUITE_P(Filter, TwoSchemes, testing::Values("grid", "region"),
                          [](const auto& info) { return info.param; });
 
 TEST(Filter, IsFoundByItsNameAndOthersAreNot) {
-  EXPECT_THAT(filter_names(), ElementsAre("always", "aura", "cone", "diamond", "grid", "hex",
-                                          "hierarchical", "hybrid", "nimbus", "none", "owner",
-                                          "pvs", "region", "sight", "strips", "team", "tiles"));
+  EXPECT_THAT(filter_names(),
+              ElementsAre("always", "aura", "cone", "diamond", "grid", "hex", "hierarchical",
+                          "hybrid", "nimbus", "none", "owner", "pvs", "region", "sight", "strips",
+                          "team", "tiles", "zones"));
   for (const std::string& name : filter_names()) EXPECT_TRUE(make_filter(name, {}));
   EXPECT_FALSE(make_filter("nonesuch", {}));
 }

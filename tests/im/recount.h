@@ -16,6 +16,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "im/filter.h"
 #include "tests/im/view_truth.h"
@@ -246,6 +247,13 @@ inline Relevant rule_of(const std::string& scheme, const FilterSettings& setting
   return with_settings(grid_touches);
 }
 
+/// Those that decide about a pair by the pair alone; zones follow from all entities.
+inline std::vector<std::string> schemes_of_pairs() {
+  std::vector<std::string> names = filter_names();
+  std::erase(names, "zones");
+  return names;
+}
+
 /// A filter together with all it was told, its reported changes replayed, and the rule it must
 /// agree with.
 class Judged {
@@ -304,8 +312,8 @@ class Judged {
         ASSERT_LT(std::pair(changes[i - 1].subscriber, changes[i - 1].entity), pair)
             << "out of order or doubled";
       }
-      if (change.transition == Transition::tier_changed) {
-        ASSERT_TRUE(known_.contains(pair)) << "another tier of who is not there";
+      if (change.transition == Transition::tier_changed || change.transition == Transition::due) {
+        ASSERT_TRUE(known_.contains(pair)) << "news of who is not there";
         continue;
       }
       const bool is_news = change.transition == Transition::entered ? known_.insert(pair).second

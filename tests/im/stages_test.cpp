@@ -232,7 +232,7 @@ TEST(Tiers, ReplayToTheRecount) { play_tiers(1, 60); }
 TEST(TiersLong, ReplayToTheRecountOverThousandsOfSeeds) { play_tiers(100, 3'000); }
 
 TEST(Stages, ComposeInAnyOrderBehindAnyScheme) {
-  for (const std::string& scheme : filter_names())
+  for (const std::string& scheme : schemes_of_pairs())
     for (const std::string stages : {"with hysteresis(margin=0.5) with dwell(matches=3)",
                                      "with dwell(matches=3) with hysteresis(margin=0.5)",
                                      "with swept(horizon=0.5) with dwell(matches=2)",

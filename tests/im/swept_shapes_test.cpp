@@ -128,7 +128,7 @@ class SweptBehind : public testing::TestWithParam<std::string> {};
 class SweptBehindLong : public testing::TestWithParam<std::tuple<std::string, std::uint64_t>> {};
 
 std::vector<std::string> schemes_of_places() {
-  std::vector<std::string> names = filter_names();
+  std::vector<std::string> names = schemes_of_pairs();
   std::erase_if(names, [](const std::string& name) { return !looks_at_places(name); });
   return names;
 }

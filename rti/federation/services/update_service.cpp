@@ -69,6 +69,7 @@ void UpdateService::store(std::uint32_t slot, ObjectSlot object, AttributeSet at
        .stamp = stamp,
        .values = values,
        .residual = uses_.residuals.take(updated, object, attributes, stamp.time, values)});
+  uses_.distribution.object_updated(object);
   ++basis_.counters.updates_received;
   ++basis_.federates[slot].counts.updates_sent;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rti/baselines/residual_states.h"
+#include "rti/distribution/data_distribution.h"
 #include "rti/federation/delivery/arrival_orders.h"
 #include "rti/federation/delivery/best_effort_sender.h"
 #include "rti/federation/federation_basis.h"
@@ -27,6 +28,7 @@ class UpdateService {
     ArrivalOrders& arrivals;
     BestEffortSender& sender;
     ResidualStates& residuals;
+    DataDistribution& distribution;
   };
   UpdateService(const FederationBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
 

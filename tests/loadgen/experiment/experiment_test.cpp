@@ -96,7 +96,8 @@ TEST(ExperimentFile, ComplaintsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_THAT(complaint_about(minimal + "view_fraction = [0.1, 0.2]\nview_area = 4"),
               AllOf(StartsWith("dir/x.toml:4: view_area = 4"), HasSubstr("single view_fraction")));
   EXPECT_THAT(complaint_about(minimal + "sweep_ticks = -1"), HasSubstr("from 0 to 1000"));
-  EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"), HasSubstr("tcp, udp, shm, bundle, virtual"));
+  EXPECT_THAT(complaint_about(minimal + "transport = 'mpi'"),
+              HasSubstr("tcp, udp, shm, bundle, virtual"));
   EXPECT_THAT(complaint_about(minimal + "bundles = 2"),
               AllOf(StartsWith("dir/x.toml:3: bundles = 2"), HasSubstr("transport = \"bundle\"")));
   EXPECT_THAT(complaint_about(minimal + "transport = 'bundle'\nbundles = 0"),
@@ -163,6 +164,7 @@ TEST(ExperimentFile, StagesSayNotWhatIsRelevantAtAnInstant) {
         {"dwell(matches=3)", "depends on what was relevant before"},
         {"swept(horizon=0.1)", "depends on predicted flights"},
         {"tiers(at=0.5)", "decides how often an entity is updated"},
+        {"vfc(at=0.5 matches=3)", "decides how often an entity is updated"},
         {"priority(budget=100)", "decides how often"}}) {
     const std::string complaint = complaint_about(
                           minimal + "relevance = 'filter'\nrelevant = 'team or (aura with " +

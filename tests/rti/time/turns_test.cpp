@@ -245,6 +245,52 @@ TEST(Tiers, KeepEverybodyAsFreshAsTheySayWhateverHappens) {
   wander("region with hysteresis(margin=2) with tiers(at=0.2)", 7, 2);
 }
 
+/// The first update that is held back has the age 1, so one of six is told, with all others.
+TEST(HeldUpdates, AreToldWhenTheirBoundIsExceeded) {
+  BuoyedSea sea("region with vfc(at=0.25 matches=5)");
+  sea.add_buoy(52.0, 50.0);
+  sea.add_buoy(95.0, 50.0);
+  sea.add_watcher({0.0, 0.0, 100.0, 100.0});
+  sea.rig.settle();
+  const int before = sea.known(0, sea.buoys[1]).updates;
+  for (int match = 1; match <= 60; ++match) {
+    for (Buoy& each : sea.buoys) sea.say(each, static_cast<float>(match));
+    sea.round();
+    ASSERT_EQ(sea.heard(0, sea.buoys[0]), static_cast<float>(match)) << "near";
+    ASSERT_EQ(sea.heard(0, sea.buoys[1]), match < 6 ? 0.5f : static_cast<float>(match / 6 * 6));
+  }
+  EXPECT_EQ(sea.known(0, sea.buoys[1]).updates - before, 10);
+  sea.say(sea.buoys[1], 100.0f);
+  for (int match = 0; match < 5; ++match) sea.round();
+  EXPECT_EQ(sea.heard(0, sea.buoys[1]), 60.0f);
+  sea.round();
+  EXPECT_EQ(sea.heard(0, sea.buoys[1]), 100.0f) << "at rest, too";
+}
+
+TEST(HeldUpdates, OfOneWhoSubscribesEverywhereDoNotWait) {
+  BuoyedSea sea("region with vfc(at=0 matches=60)");
+  Buoy& buoy = sea.add_buoy(95.0, 50.0);
+  Station& watcher = sea.add_watcher({0.0, 0.0, 100.0, 100.0});
+  sea.rig.settle();
+  sea.say(buoy, 1.0f);
+  sea.round();
+  EXPECT_EQ(sea.heard(0, buoy), 0.5f);
+  watcher.ambassador.subscribe_object_class_attributes(ferry, {speed, destination}, {});
+  sea.round();
+  EXPECT_EQ(sea.heard(0, buoy), 1.0f);
+  sea.say(buoy, 2.0f);
+  sea.round();
+  EXPECT_EQ(sea.heard(0, buoy), 2.0f);
+}
+
+TEST(HeldUpdates, KeepEverybodyWithinTheirBoundsWhateverHappens) {
+  for (unsigned seed = 1; seed <= 4; ++seed) wander("region with vfc(at=0 matches=4)", seed, 5);
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    wander("region with dyconits(cell_size=20 matches=2)", seed, 11);
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    wander("region with vfc(at=0.3 matches=4) with priority(budget=60)", seed, 0);
+}
+
 TEST(Budget, IsKeptAndStarvesNobody) {
   for (unsigned seed = 1; seed <= 4; ++seed) wander("region with priority(budget=60)", seed, 0);
   wander(std::string(four_tiers) + " with priority(budget=60)", 5, 0);
