@@ -69,7 +69,8 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
   add_gate(clients_,
            {.key_file = options.key_file,
             .federation = federation,
-            .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
+            .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s},
+            .address_limit = options.address_limit},
            now_s);
   serving_.host().add(clients_);
   if (!options.trace.empty())
@@ -118,9 +119,8 @@ void ServerProcess::await_turns() {
   }
 }
 
-/// The clock of the RTI goes on whatever the players do: when it stood still until all had reached
-/// the barrier, as crowds with datagrams take long to, the server's own federate took the RTI for
-/// dead, and its next update was refused with "join first".
+/// The RTI's clock goes on while all wait at the barrier, as crowds with datagrams do for long, or
+/// the server's own federate takes the RTI for dead and its next update is refused.
 void ServerProcess::wait(double seconds) {
   TickCosts uncounted;
   serving_.exchange(seconds);

@@ -134,6 +134,11 @@ std::size_t BundledTransport::queued_bytes(ConnectionId connection) const {
          std::max<std::size_t>(1, trunk.channels_told);
 }
 
+std::string BundledTransport::peer_network(ConnectionId connection) const {
+  const bool is_there = connection < channels_.size() && channels_[connection];
+  return is_there ? carrier_.peer_network(channels_[connection]->trunk) : std::string();
+}
+
 TransportCounters BundledTransport::counters(ConnectionId connection) const {
   if (connection >= channels_.size()) return {};
   if (!channels_[connection]) {

@@ -56,6 +56,8 @@ class BundledTransport final : public Transport, private TransportListener {
   std::size_t queued_bytes(ConnectionId connection) const override;
   /// Of the connection's own payload, without the records' headers; the kernel knows trunks only.
   TransportCounters counters(ConnectionId connection) const override;
+  /// Whose its trunk is.
+  std::string peer_network(ConnectionId connection) const override;
   void push() override;
   /// Asserts that trunks and channels refer to each other, and that trunks with gathered bytes are
   /// on the list.

@@ -17,6 +17,8 @@ const char* to_string(CloseReason reason) {
       return "failed";
     case CloseReason::too_fast:
       return "sent faster than allowed";
+    case CloseReason::too_many:
+      return "too many connections from one address";
   }
   return "unknown reason";
 }

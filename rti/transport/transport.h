@@ -20,6 +20,7 @@ enum class CloseReason : std::uint8_t {
   refused,     ///< nobody listens there
   failed,      ///< any other error of the operating system
   too_fast,    ///< the peer sent more than its rate limit allows
+  too_many,    ///< the peer's address has too many connections
 };
 const char* to_string(CloseReason reason);
 
@@ -103,6 +104,10 @@ class Transport {
   /// Counters of an open connection, or the last ones of a closed one; all zero for one that never
   /// was.
   virtual TransportCounters counters(ConnectionId connection) const = 0;
+
+  /// Whose an open connection is: its peer's IPv4 address, or the first 64 bits of an IPv6 one, of
+  /// which one host may have all; empty if there is none.
+  virtual std::string peer_network(ConnectionId) const { return {}; }
 
   /// The most bytes that a datagram over this connection may have now [bytes]; 0 while there is no
   /// channel for datagrams, when none may be sent.

@@ -57,7 +57,8 @@ RtiHost::RtiHost(const RtiOptions& options, const rti::Fom& fom)
   add_gate(gate_,
            {.key_file = options.key_file,
             .federation = options.federations.empty() ? "rink" : options.federations.front(),
-            .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s}},
+            .rate_limit = {options.rate_limit_bytes_per_s, options.frame_limit_per_s},
+            .address_limit = options.address_limit},
            now_s);
   directory_.offer(fom);
   for (const std::string& federation : options.federations)

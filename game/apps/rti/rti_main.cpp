@@ -104,6 +104,11 @@ void add_options(Flags& flags, RtiOptions& options) {
               "admit only federates with the same file (docs/rti.md, Admission); without it: all")
       .check(existing_file());
   flags
+      .option("--address-limit", options.address_limit,
+              "connections that one address may have; 0: any; by default half of the files "
+              "that this process may open, for addresses of other machines alone")
+      .check(whole_number_from(0, 1'000'000));
+  flags
       .option("--rate-limit", options.rate_limit_bytes_per_s,
               "bytes per second that a federate may send before it is dropped; 0: any")
       .check(number_from(0.0, 1e12))

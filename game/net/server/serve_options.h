@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,9 @@ struct ServeOptions {
          patience_s = 30.0, node_patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0,
          every_s = 0.0;
   double spread = 0.0;
-  double threshold = threshold_default;                          ///< m
-  double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each client; 0: none
+  double threshold = threshold_default;                           ///< m
+  double rate_limit_bytes_per_s = 16e6, frame_limit_per_s = 0.0;  ///< of each client; 0: none
+  std::optional<std::uint32_t> address_limit{};                   ///< see GateSettings
   /// Of the physics in real time. More than a core plays in a second, so that only what would hang
   /// is slowed.
   std::uint64_t events_per_s = 2'000'000;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,9 @@ class TransportStage : public Transport, protected TransportListener {
   }
   TransportCounters counters(ConnectionId connection) const override {
     return below_->counters(connection);
+  }
+  std::string peer_network(ConnectionId connection) const override {
+    return below_->peer_network(connection);
   }
   std::size_t datagram_max(ConnectionId connection) const override {
     return below_->datagram_max(connection);

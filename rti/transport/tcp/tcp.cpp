@@ -1,6 +1,7 @@
 // Opens, polls and closes TCP connections.
 #include "rti/transport/tcp/tcp.h"
 
+#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/resource.h>
@@ -12,6 +13,7 @@
 #include <asio.hpp>
 #include <cassert>
 #include <cerrno>
+#include <iterator>
 
 #include "rti/transport/tcp/kernel_counters.h"
 
@@ -318,6 +320,23 @@ TransportCounters TcpTransport::totals() const {
 int TcpTransport::file(ConnectionId connection) const {
   const Peer* peer = find(connection);
   return peer != nullptr && peer->is_open && !peer->is_leaving ? peer->file.number() : -1;
+}
+
+std::string TcpTransport::peer_network(ConnectionId connection) const {
+  sockaddr_in6 peer{};  // the larger one
+  socklen_t size = sizeof peer;
+  if (::getpeername(file(connection), reinterpret_cast<sockaddr*>(&peer), &size) != 0) return {};
+  char text[INET6_ADDRSTRLEN] = {};
+  if (peer.sin6_family == AF_INET) {
+    const auto& plain = reinterpret_cast<const sockaddr_in&>(peer);
+    return ::inet_ntop(AF_INET, &plain.sin_addr, text, sizeof text);
+  }
+  if (peer.sin6_family != AF_INET6) return {};
+  if (IN6_IS_ADDR_V4MAPPED(&peer.sin6_addr))
+    return ::inet_ntop(AF_INET, peer.sin6_addr.s6_addr + 12, text, sizeof text);
+  constexpr std::size_t prefix = 8;
+  std::fill(peer.sin6_addr.s6_addr + prefix, std::end(peer.sin6_addr.s6_addr), std::uint8_t{0});
+  return std::string(::inet_ntop(AF_INET6, &peer.sin6_addr, text, sizeof text)) + "/64";
 }
 
 }  // namespace rink::rti

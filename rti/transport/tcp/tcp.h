@@ -57,6 +57,7 @@ class TcpTransport final : public Transport {
   /// report, and that of an open connection's socket, -1 for others.
   int wait_file() const { return readiness_.file(); }
   int file(ConnectionId connection) const;
+  std::string peer_network(ConnectionId connection) const override;
 
  private:
   struct Peer {

@@ -49,6 +49,9 @@ class UdpTransport final : public Transport, private TransportListener {
   bool is_behind() const override { return tcp_.is_behind() || is_behind_; }
   std::size_t queued_bytes(ConnectionId connection) const override;
   TransportCounters counters(ConnectionId connection) const override;
+  std::string peer_network(ConnectionId connection) const override {
+    return tcp_.peer_network(connection);
+  }
   std::size_t datagram_max(ConnectionId connection) const override;
   void send_datagrams(ConnectionId connection, std::span<const Datagram> datagrams) override;
   void push() override { sender_.push(); }

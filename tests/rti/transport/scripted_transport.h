@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "rti/transport/transport.h"
@@ -41,10 +42,15 @@ class ScriptedTransport final : public Transport {
   }
   TransportCounters counters(ConnectionId) const override { return {}; }
   std::size_t queued_bytes(ConnectionId) const override { return queued; }
+  std::string peer_network(ConnectionId id) const override {
+    const auto found = networks.find(id);
+    return found == networks.end() ? "" : found->second;
+  }
 
   std::size_t queued = 0;  ///< of every connection
   std::map<ConnectionId, std::vector<std::byte>> sent;
   std::vector<ConnectionId> closed;
+  std::map<ConnectionId, std::string> networks;
 
  private:
   std::vector<Event> script_;
