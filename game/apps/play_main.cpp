@@ -40,13 +40,14 @@ class Process {
         settings_file_(options.settings_file.empty() ? view::settings_file()
                                                      : options.settings_file) {
     view::ReadSettings read = view::read_settings(settings_file_);
-    settings_ = read.settings;
+    settings_ = kept_ = read.settings;
     is_misread_ = !read.errors.empty();
     if (options.is_muted) settings_.is_muted = true;
     if (options.is_full_screen) settings_.is_full_screen = true;
     if (const auto control = view::control_from_name(options.control)) settings_.control = *control;
     for (const std::string& problem : read.errors)
       errors_ += (errors_.empty() ? "" : "\n") + problem;
+    shown_ = settings_;
     if (!options.script.empty()) script_ = view::read_script(options.script);
     if (!options.screenshot.empty()) {
       script_.push_back({.time = options.at_s, .events = {}, .picture = options.screenshot});
@@ -87,11 +88,14 @@ class Process {
   }
   void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
   void save(const view::Settings& settings);
+  void remember(const view::Settings& settings);
 
   view::PlayOptions options_;
   std::string settings_file_, errors_;
   bool is_misread_ = false;  ///< the settings' file has unknown content
-  view::Settings settings_;
+  view::Settings settings_;  ///< those of the file under the flags
+  view::Settings kept_;      ///< those of the file
+  view::Settings shown_;     ///< those that were saved last, under the flags
   std::vector<view::ScriptStep> script_;
   std::size_t next_step_ = 0;
   std::unique_ptr<view::Sounds> sounds_;
@@ -119,6 +123,7 @@ void Process::open(view::Window* window) {
     };
   }
   surroundings.save_settings = [this](const view::Settings& settings) { save(settings); };
+  surroundings.remember_settings = [this](const view::Settings& settings) { remember(settings); };
   application_ = std::make_unique<view::Application>(std::move(surroundings), settings_);
   if (const auto viewpoint = view::viewpoint_of(options_)) application_->set_viewpoint(*viewpoint);
   if (options_.shows_figures) application_->show_figures();
@@ -126,10 +131,19 @@ void Process::open(view::Window* window) {
   if (const auto wish = view::wish_of(options_)) application_->play(*wish);
 }
 
+/// What flags said is kept only if the player changes it: they are for one run.
 void Process::save(const view::Settings& settings) {
+  kept_ = view::with_changes(kept_, shown_, settings);
+  shown_ = settings;
   if (std::exchange(is_misread_, false))
     if (const auto place = view::set_settings_aside(settings_file_)) notify(*place);
-  if (const auto problem = view::write_settings(settings, settings_file_)) notify(*problem);
+  if (const auto problem = view::write_settings(kept_, settings_file_)) notify(*problem);
+}
+
+/// Not in a run by a script, nor over a file with content that is not understood: both wait until
+/// the player changes a setting.
+void Process::remember(const view::Settings& settings) {
+  if (script_.empty() && !is_misread_) save(settings);
 }
 
 void Process::draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen) {
@@ -171,7 +185,8 @@ void Process::run_in_window(const view::WindowSize& size) {
     const double left_s = shortest_frame_s - (now_s() - begin_s);
     if (left_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
   }
-  if (application_->settings().window != settings_.window) save(application_->settings());
+  if (options_.given.count("--size") == 0 && application_->settings().window != settings_.window)
+    remember(application_->settings());
 }
 
 /// Time is counted in frames, so the same script gives the same pictures; frames of which no

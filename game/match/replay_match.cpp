@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "game/control/key_log_file.h"
 
@@ -45,18 +46,23 @@ void ReplayMatch::stop_after_win() {
   }
 }
 
-std::vector<ReplayMatch::Input> ReplayMatch::inputs() const {
-  std::vector<Input> inputs(replay_.game().player_count());
-  for (const InputEvent& event : replay_.log().events) {
-    if (event.time > sight_.time) break;
-    if (event.player >= inputs.size()) continue;
-    Input& input = inputs[event.player];
+/// Goes on from where it was, since records have hundreds of thousands of events.
+void ReplayMatch::follow_inputs() {
+  const std::vector<InputEvent>& events = replay_.log().events;
+  if (inputs_.empty() || (events_taken_ > 0 && events[events_taken_ - 1].time > sight_.time)) {
+    inputs_.assign(replay_.game().player_count(), {});
+    events_taken_ = 0;
+  }
+  for (; events_taken_ < events.size() && events[events_taken_].time <= sight_.time;
+       ++events_taken_) {
+    const InputEvent& event = events[events_taken_];
+    if (event.player >= inputs_.size()) continue;
+    Input& input = inputs_[event.player];
     if (event.kind == InputKind::push) input.push = event.push;
     else if (event.kind == InputKind::key_down || event.kind == InputKind::key_up)
       input.keys.set(event.key, event.kind == InputKind::key_down);
     else input = {};
   }
-  return inputs;
 }
 
 void ReplayMatch::advance(double now_s) {
@@ -69,9 +75,10 @@ void ReplayMatch::advance(double now_s) {
   replay_.seek(wanted_);
   stop_after_win();
   game_sight_.show(replay_.game(), sight_);
-  sight_.phase =
-      wanted_ == end() ? MatchPhase::over : MatchPhase::playing;  // a stopped replay is still shown
-                                                                  // as playing
+  follow_inputs();
+  // A replay that the watcher stops is still shown as playing.
+  const bool is_over = wanted_ == end() || (has_stopped_ && is_paused_);
+  sight_.phase = is_over ? MatchPhase::over : MatchPhase::playing;
   const Score& score = sight_.score;
   sight_.winner.reset();
   if (replay_.game().is_over()) sight_.winner = score.left > score.right ? Team::left : Team::right;
@@ -79,7 +86,7 @@ void ReplayMatch::advance(double now_s) {
                       ? "this is not the game that was recorded: its end differs"
                       : "";
   if (is_sought_) noises_ = {}, goals_ = {};  // events in between make no sound
-  is_sought_ = false;
+  was_sought_ = std::exchange(is_sought_, false);
   goals_.look(sight_, now_s, replay_.scene().rules.face_off_delay);
   noises_.listen(sight_);
 }

@@ -1,6 +1,7 @@
 // A recorded match for watching, with pause, seeking and slow motion.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -41,12 +42,15 @@ class ReplayMatch final : public MatchSource {
     KeysHeld keys;
     Push push;
   };
-  std::vector<Input> inputs() const;
+  const std::vector<Input>& inputs() const { return inputs_; }
+  /// Whether the last advance() went where seek() had asked it to go.
+  bool was_sought() const { return was_sought_; }
   /// Whether the game ended in the recorded state; nothing before the end was reached.
   std::optional<bool> is_as_recorded() const { return replay_.is_as_recorded(); }
 
  private:
   void stop_after_win();
+  void follow_inputs();
   static Replay read(const std::filesystem::path& file);
 
   Replay replay_;
@@ -55,6 +59,9 @@ class ReplayMatch final : public MatchSource {
   bool has_begun_ = false, is_paused_ = false, is_sought_ = false;
   std::optional<double> won_at_;  ///< when the match was seen to be won [s]
   bool has_stopped_ = false;      ///< after the win
+  bool was_sought_ = false;
+  std::vector<Input> inputs_;  ///< after the first events_taken_ of the record
+  std::size_t events_taken_ = 0;
   MatchSight sight_;
   GameSight game_sight_;
   NoiseDetector noises_;

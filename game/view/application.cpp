@@ -8,6 +8,7 @@
 
 #include "game/match/replay_match.h"
 #include "game/view/overlays/zones_overlay.h"
+#include "game/view/window/glfw.h"
 
 namespace rink::view {
 namespace {
@@ -107,6 +108,7 @@ Viewpoint Application::viewpoint_of(std::uint32_t hand) const {
 void Application::set_paused(bool is_wanted) {
   release_all();
   if (is_wanted) use(Hint::pause);
+  recorded_.bar.let_go();
   match_->pause(is_wanted);
   menu_.open(is_wanted ? Menu::Screen::paused : Menu::Screen::none);
 }
@@ -139,17 +141,23 @@ void Application::follow_phase() {
 
 /// Whoever used a key once needs no hint of it.
 void Application::use(Hint hint) {
-  if (FirstMinute::use(hint, settings_)) do_wish({MenuWish::Kind::settings_changed, {}});
+  if (FirstMinute::use(hint, settings_)) remember();
+}
+
+/// Keeps what nobody asked to be kept.
+void Application::remember() const {
+  if (surroundings_.remember_settings) surroundings_.remember_settings(settings_);
 }
 
 /// What a player of a match is told, over the picture.
 void Application::tell(double now_s, Picture& words) {
   const MatchSight& sight = match_->sight();
   if (match_->hand_count() > 0) {
-    if (told_.first.look(sight, now_s, settings_)) do_wish({MenuWish::Kind::settings_changed, {}});
+    if (told_.first.look(sight, now_s, settings_)) remember();
     told_.first.add_to(sight, settings_, match_->hand_count() == 1, words);
   }
-  if (settings_.is_best_of_three) told_.series.add_to(sight, palette_of(settings_.palette), words);
+  if (settings_.is_best_of_three && match_->hand_count() > 0)
+    told_.series.add_to(sight, palette_of(settings_.palette), words);
 }
 
 /// Whether effects that move are wanted.
@@ -227,6 +235,7 @@ void Application::draw_views(Interface& interface, Renderer* renderer, const Can
   add_record(choice, static_cast<double>(canvas.width) / canvas.height, words);
   if (is_behind_menu || has_settings) {
     words.texts.clear();
+    words.panels.clear();
     words.dimming = is_behind_menu ? 0.45f : 0.6f;
   }
   interface.draw(words);
@@ -247,10 +256,16 @@ void Application::add_record(const ViewChoice& choice, double aspect, Picture& w
     surroundings_.notify(wish_.address + ": " + notice);
 }
 
+/// Not beside a menu, which hears the space bar too, nor beside who has won.
+bool Application::shows_goal_again() const {
+  return feel_.replay.shown() != nullptr && match_->hand_count() == 1 &&
+         menu_.screen() == Menu::Screen::none && match_->sight().phase != Phase::over;
+}
+
 /// A goal of a player's own match, in the upper left corner: the match goes on beside it.
 void Application::draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words) {
+  if (!shows_goal_again()) return;
   const MatchSight* sight = feel_.replay.shown();
-  if (sight == nullptr || match_->hand_count() != 1) return;
   constexpr float left = 0.02f, top = 0.09f, part = 0.3f;
   const int width = static_cast<int>(part * static_cast<float>(canvas.width)),
             height = std::min(width * 9 / 16, canvas.height / 3),
@@ -272,7 +287,8 @@ void Application::draw_goal_again(Renderer* renderer, const Canvas& canvas, Pict
                           .width = of_width(width),
                           .height = of_height(height),
                           .outline = {0.93f, 0.95f, 0.99f, 0.8f}});
-  words.texts.push_back({.words = "the goal again   Space: skip",
+  const bool can_skip = !bound(settings_, GLFW_KEY_SPACE);
+  words.texts.push_back({.words = can_skip ? "the goal again   Space: skip" : "the goal again",
                          .x = of_width(x + width / 2),
                          .y = top + of_height(height) + 0.025f,
                          .size = 0.026f,
@@ -289,15 +305,17 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   move_hand();
   match_->advance(now_s);
   follow_phase();
-  told_.series.look(match_->sight());
+  if (match_->hand_count() > 0) told_.series.look(match_->sight());
   if (has_motion() && wish_.kind != MatchWish::Kind::bots) {
     feel_.impacts.look(match_->sight(), now_s);
     if (wish_.kind != MatchWish::Kind::replay) feel_.replay.look(match_->sight(), now_s);
   } else {
     feel_ = {};
   }
-  if (surroundings_.sound && wish_.kind != MatchWish::Kind::bots)
-    surroundings_.sound(match_->sight().noises, settings_);
+  if (surroundings_.sound)  // behind the menu too, where music goes on and its volume changes
+    surroundings_.sound(
+        wish_.kind == MatchWish::Kind::bots ? std::vector<Noise>{} : match_->sight().noises,
+        settings_);
   interface.begin(size, figures_.last_s < 0.0 ? 0.0 : now_s - figures_.last_s);
   draw_views(interface, renderer, canvas, now_s);
   figures_.last_s = now_s;

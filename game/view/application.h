@@ -29,7 +29,8 @@ struct Surroundings {
   std::function<std::unique_ptr<MatchSource>(const MatchWish&)>
       make_match{};  ///< throws std::exception with a text for the player
   std::function<void(bool)> set_full_screen{};
-  std::function<void(const Settings&)> save_settings{};
+  std::function<void(const Settings&)> save_settings{};      ///< the player changed one
+  std::function<void(const Settings&)> remember_settings{};  ///< they changed unasked
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
   std::function<void(const std::string&)> notify{};  ///< troubles, for the standard error
   bool wants_less_motion = false;                    ///< the desktop says so
@@ -102,6 +103,8 @@ class Application {
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
   bool has_motion() const;
+  bool shows_goal_again() const;
+  void remember() const;
   void use(Hint hint);
   void tell(double now_s, Picture& words);
   void add_record(const ViewChoice& choice, double aspect, Picture& words);

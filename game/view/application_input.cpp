@@ -13,6 +13,8 @@ namespace rink::view {
 namespace {
 
 constexpr double click_reach = 8.0;  ///< pixels: tolerance of a click's motion and target
+constexpr double moved_far =
+    0.1;  ///< a hand is this far from its bat only if somebody moves it [m]
 
 }  // namespace
 
@@ -60,7 +62,7 @@ void Application::set_split(bool is_wanted) {
 /// Handles keys of the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
   if (hear_replay(code)) return true;
-  if (code == GLFW_KEY_SPACE && feel_.replay.shown() != nullptr) {
+  if (code == GLFW_KEY_SPACE && shows_goal_again()) {
     feel_.replay.skip();
     return true;
   }
@@ -229,11 +231,14 @@ void Application::move_hand() {
     keys.set(seen_from(viewpoint_of(0), key), true);
     return game::direction(keys);
   };
-  match_->reach(0, hand_.place(settings_, {.field = sight.field,
-                                           .bat = bat->position,
-                                           .under = under_pointer(),
-                                           .right = way(game::Key::right),
-                                           .up = way(game::Key::up)}));
+  const std::optional<Vector2> place = hand_.place(settings_, {.field = sight.field,
+                                                               .bat = bat->position,
+                                                               .under = under_pointer(),
+                                                               .right = way(game::Key::right),
+                                                               .up = way(game::Key::up)});
+  if (place && sight.phase == Phase::playing && (*place - bat->position).norm() > moved_far)
+    use(Hint::move);
+  match_->reach(0, place);
 }
 
 /// While a match is played by a person.

@@ -286,11 +286,27 @@ ReadSettings read_settings(const std::string& file) {
   return parse_settings(text.str(), file);
 }
 
+Settings with_changes(Settings kept, const Settings& before, const Settings& after) {
+  const auto carry = [&](auto Settings::*member) {
+    if (before.*member != after.*member) kept.*member = after.*member;
+  };
+  for (const Switch& each : switches) carry(each.place);
+  carry(&Settings::keys), carry(&Settings::control), carry(&Settings::dead_zone);
+  carry(&Settings::sensitivity), carry(&Settings::volume), carry(&Settings::hints_seen);
+  carry(&Settings::window), carry(&Settings::palette);
+  return kept;
+}
+
+/// Overwrites nothing that was set aside before.
 std::optional<std::string> set_settings_aside(const std::string& file) {
+  constexpr int names_max = 1000;
   std::error_code problem;
-  std::filesystem::rename(file, file + ".old", problem);
+  std::string aside = file + ".old";
+  for (int i = 2; i < names_max && std::filesystem::exists(aside, problem); ++i)
+    aside = file + ".old" + std::to_string(i);
+  std::filesystem::rename(file, aside, problem);
   return problem ? std::nullopt
-                 : std::optional("what stood in '" + file + "' is kept as '" + file + ".old'");
+                 : std::optional("what stood in '" + file + "' is kept as '" + aside + "'");
 }
 
 /// Writes to a second file and renames it, so that an interruption leaves the old settings or the

@@ -92,6 +92,9 @@ std::string settings_text(const Settings& settings);
 
 /// No file is no trouble.
 ReadSettings read_settings(const std::string& file);
+/// `kept` with those settings that differ between `before` and `after`, as they are in `after`.
+Settings with_changes(Settings kept, const Settings& before, const Settings& after);
+
 /// Renames a file with faults, so that later writing does not overwrite it. Returns the new name,
 /// or nothing if that failed.
 std::optional<std::string> set_settings_aside(const std::string& file);

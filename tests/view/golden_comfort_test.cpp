@@ -50,6 +50,20 @@ TEST_F(GoldenImages, OfTheFirstMinuteAllKeysAndABestOfThree) {
   expect_golden("best_of_three");
 }
 
+/// Music that goes on behind the menu hears of its volume there.
+TEST_F(GoldenImages, AreBesideSoundsThatHearOfTheSettingsBehindTheMenuToo) {
+  std::size_t heard = 0;
+  application_ = std::make_unique<Application>(
+      Surroundings{.make_match =
+                       [](const MatchWish&) { return std::make_unique<StillMatch>(match_sight()); },
+                   .sound = [&](const std::vector<Noise>& noises,
+                                const Settings&) { heard += noises.empty() ? 1 : 100; }},
+      known());
+  ASSERT_TRUE(application_->is_in_menu());
+  frame(false), frame(false);
+  EXPECT_EQ(heard, 2u);
+}
+
 /// A window to watch in that is higher than wide shows the table from an end, along its length, and
 /// more of it than of the floor.
 TEST_F(GoldenImages, OfAnUprightWindow) {

@@ -264,6 +264,19 @@ TEST_F(PlayCommand, SavesAKeyThatWasBoundAnew) {
   EXPECT_THAT(words.str(), HasSubstr("[keys.left]\nleft = \"j\"\n"));
 }
 
+/// Nobody who watches a script has asked for anything to be kept, nor for a flag of one run.
+TEST_F(PlayCommand, KeepsNeitherFlagsNorHintsThatNobodyAskedToKeep) {
+  ASSERT_EQ(play("--bot club", "3.2 tap w\n3.4 tap c\n3.6 tap escape\n4 end\n"), 0) << said_;
+  EXPECT_FALSE(std::filesystem::exists(file("rink/play.toml")));
+  ASSERT_EQ(play("--mute",
+                 "0.2 tap down\n0.3 tap down\n0.4 tap down\n0.5 tap down\n0.6 tap down\n0.7 tap "
+                 "enter\n0.9 tap space\n1.1 tap j\n1.4 end\n"),
+            0)
+      << said_;
+  EXPECT_THAT(test::text_of(file("rink/play.toml")),
+              AllOf(HasSubstr("left = \"j\"\n"), HasSubstr("mute = false\n")));
+}
+
 TEST_F(PlayCommand, NeedsADisplayUnlessItDrawsOffscreen) {
   EXPECT_EQ(play("--two"), 18);
   EXPECT_THAT(said_, HasSubstr("xvfb"));

@@ -63,7 +63,10 @@ TEST_F(WatchedReplay, StopsTwoSecondsAfterTheWinAndResumedPlaysToItsEnd) {
   EXPECT_TRUE(replay_->is_paused());
   EXPECT_NEAR(replay_->sight().time, 1.2 / 2.0 + game::ReplayMatch::after_win_s, 0.1);
   EXPECT_EQ(replay_->sight().winner, game::Team::right);
+  EXPECT_EQ(replay_->sight().phase, Phase::over) << "who has won is said there";
   replay_->pause(false);
+  watch(0.1);
+  EXPECT_EQ(replay_->sight().phase, Phase::playing);
   watch(7.0);
   EXPECT_EQ(replay_->sight().time, 8.0);
   EXPECT_THAT(replay_->is_as_recorded(), Optional(true));
@@ -95,6 +98,46 @@ TEST_F(WatchedReplay, ShowsAtTheBatsWhatIsHeldAndPushedAtItsInstant) {
   EXPECT_NEAR(bars()[1].high_y - bars()[1].low_y, 0.03 * 64.0 / 127.0, 1e-12);
 }
 
+/// The record is walked once, not anew at each picture: whatever one seeks, it is what the events
+/// so far add up to.
+TEST_F(WatchedReplay, KnowsWhatIsHeldWhereverItIsSought) {
+  const game::KeyLog log = game::read_key_log(file_);
+  for (const double instant : {0.3, 0.2, 0.05, 8.0, 0.26, 0.0, 0.13, 5.0}) {
+    seek(instant);
+    std::vector<game::ReplayMatch::Input> expected(2);
+    for (const game::InputEvent& event : log.events) {
+      if (event.time > replay_->sight().time) break;
+      game::ReplayMatch::Input& input = expected.at(event.player);
+      if (event.kind == game::InputKind::push) input.push = event.push;
+      else if (event.kind != game::InputKind::key_down && event.kind != game::InputKind::key_up)
+        input = {};
+      else input.keys.set(event.key, event.kind == game::InputKind::key_down);
+    }
+    for (std::size_t player = 0; player < 2; ++player) {
+      EXPECT_EQ(replay_->inputs().at(player).push, expected[player].push) << instant;
+      EXPECT_EQ(replay_->inputs().at(player).keys, expected[player].keys) << instant;
+    }
+  }
+}
+
+TEST_F(WatchedReplay, MarksAGoalHoweverFewPicturesThereAreButNoneThatWasPassedOver) {
+  const auto marks = [](const ReplayBar& bar, const game::ReplayMatch& replay) {
+    Picture words;
+    bar.add_to(replay, palette_of(PaletteKind::standard), words);
+    return std::ranges::count(words.panels, palette_of(PaletteKind::standard).right, &Panel::fill);
+  };
+  ReplayBar seen, sought;
+  replay_->set_speed(8.0);
+  for (int k = 0; k < 8; ++k) replay_->advance(now_s_ += 0.1), seen.look(*replay_);
+  EXPECT_EQ(marks(seen, *replay_), 1);
+  seek(0.1);
+  sought.look(*replay_);
+  replay_->seek(2.0);
+  replay_->advance(now_s_ += 0.1);
+  sought.look(*replay_);
+  EXPECT_EQ(marks(sought, *replay_), 0) << "when it fell is not known";
+}
+
 TEST_F(WatchedReplay, IsSoughtInByABarThatAlsoShowsTheGoalThatWasSeen) {
   constexpr WindowSize size{1000, 500, 1.0};
   ReplayBar bar;
@@ -117,7 +160,12 @@ TEST_F(WatchedReplay, IsSoughtInByABarThatAlsoShowsTheGoalThatWasSeen) {
   EXPECT_THAT(at(-0.2, 0.9), Optional(0.0));
   EXPECT_THAT(at(1.2, 0.9), Optional(8.0));
   EXPECT_TRUE(bar.is_held());
+  EXPECT_FALSE(bar.hear({.kind = Kind::key, .key = 65, .is_down = true}, size, replay_->end()))
+      << "a key is none of the bar's";
   EXPECT_FALSE(button(false));
+  button(true);
+  bar.let_go();
+  EXPECT_FALSE(at(0.3, ReplayBar::middle)) << "a menu was opened meanwhile";
   EXPECT_FALSE(at(0.5, ReplayBar::middle));
 
   const Palette& palette = palette_of(PaletteKind::standard);

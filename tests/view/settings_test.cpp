@@ -127,6 +127,39 @@ TEST(Settings, AFileWithTroublesIsKeptWhenNewSettingsAreWritten) {
   EXPECT_FALSE(std::filesystem::exists(file + ".new"));
 }
 
+TEST(Settings, SetAsideOverwriteNothingThatWasSetAsideBefore) {
+  const test::TemporaryFolder folder("settings");
+  const std::string file = folder / "play.toml";
+  for (const char* name : {".old", ".old2", ".old3"}) {
+    std::ofstream(file) << name;
+    ASSERT_THAT(set_settings_aside(file), Optional(HasSubstr(std::string(name) + "'")));
+  }
+  for (const char* name : {".old", ".old2", ".old3"}) EXPECT_EQ(test::text_of(file + name), name);
+}
+
+/// Flags hold for one run: what they said is kept only if the player changes it again.
+TEST(Settings, OfTheFileKeepWhatFlagsSaidOnlyIfThePlayerChangesIt) {
+  Settings file;
+  file.volume = 0.3;
+  Settings flagged = file;
+  flagged.is_muted = true, flagged.control = Control::pointer, flagged.window = {640, 480};
+  Settings later = flagged;
+  later.keys[1][0] = 74, later.hints_seen[2] = true, later.palette = PaletteKind::no_red_green;
+  Settings kept = with_changes(file, flagged, later);
+  EXPECT_FALSE(kept.is_muted);
+  EXPECT_EQ(kept.control, Control::keys);
+  EXPECT_EQ(kept.window, WindowPoints{});
+  EXPECT_EQ(kept.volume, 0.3);
+  EXPECT_EQ(kept.keys, later.keys);
+  EXPECT_EQ(kept.hints_seen, later.hints_seen);
+  EXPECT_EQ(kept.palette, PaletteKind::no_red_green);
+  Settings unmuted = later;
+  unmuted.is_muted = false, unmuted.has_music = true;
+  kept = with_changes(kept, later, unmuted);
+  EXPECT_TRUE(kept.has_music);
+  EXPECT_EQ(with_changes(Settings(), Settings(), unmuted), unmuted) << "all that there is";
+}
+
 TEST(Settings, WhatIsNoFileOrTooLargeIsNotRead) {
   const test::TemporaryFolder folder("settings");
   EXPECT_THAT(read_settings(folder.path()).errors, ElementsAre(HasSubstr("not a file")));

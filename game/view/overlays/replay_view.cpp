@@ -27,7 +27,7 @@ void ReplayBar::look(const game::ReplayMatch& replay) {
     const auto is_known = [&](const Goal& goal) {
       return goal.team == team && std::abs(goal.time - sight.time) < 0.5;
     };
-    if (goes_on && now == before + 1 && sight.time - time_ < 0.5 &&
+    if (goes_on && now == before + 1 && !replay.was_sought() &&
         std::ranges::none_of(goals_, is_known))
       goals_.push_back({sight.time, team});
   };
@@ -68,13 +68,14 @@ std::optional<double> ReplayBar::hear(const WindowEvent& event, const WindowSize
     is_held_ =
         event.is_down && std::abs(y_ - middle) <= reach && x_ >= left - 0.01 && x_ <= right + 0.01;
   else if (event.kind == Kind::focus_lost) is_held_ = false;
-  if (!is_held_) return std::nullopt;
+  if (!is_held_ || (event.kind != Kind::mouse_move && event.kind != Kind::mouse_button))
+    return std::nullopt;
   return end_s * std::clamp((x_ - left) / (right - left), 0.0, 1.0);
 }
 
 void add_inputs(const game::ReplayMatch& replay, const Palette& palette, Overlay& overlay) {
   std::uint32_t player = 0;
-  const std::vector<game::ReplayMatch::Input> inputs = replay.inputs();
+  const std::vector<game::ReplayMatch::Input>& inputs = replay.inputs();
   for (const Thing& thing : replay.sight().things) {
     if (thing.kind != physics::BodyKind::bat) continue;
     if (player >= inputs.size()) return;

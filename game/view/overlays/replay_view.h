@@ -21,9 +21,10 @@ class ReplayBar {
   void look(const game::ReplayMatch& replay);
   /// Into the words over the picture.
   void add_to(const game::ReplayMatch& replay, const Palette& palette, Picture& words) const;
-  /// The instant [s] to go to where the event asks for one; `is_used` says that it is the bar's.
+  /// The instant [s] to go to where the event asks for one.
   std::optional<double> hear(const WindowEvent& event, const WindowSize& size, double end_s);
   bool is_held() const { return is_held_; }
+  void let_go() { is_held_ = false; }
 
  private:
   struct Goal {
