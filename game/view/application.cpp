@@ -165,6 +165,20 @@ bool Application::has_motion() const {
   return settings_.has_effects && !settings_.has_less_motion && !surroundings_.wants_less_motion;
 }
 
+void Application::look_for_effects(double now_s) {
+  if (!has_motion() || wish_.kind == MatchWish::Kind::bots) {
+    feel_ = {};
+    return;
+  }
+  const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get());
+  const bool stands =
+      match_->sight().phase != Phase::playing || (replay != nullptr && replay->is_paused());
+  if (!stands && figures_.last_s >= 0.0)
+    feel_.clock_s += (replay != nullptr ? replay->speed() : 1.0) * (now_s - figures_.last_s);
+  feel_.impacts.look(match_->sight(), feel_.clock_s);
+  if (replay == nullptr) feel_.replay.look(match_->sight(), feel_.clock_s);
+}
+
 ViewChoice Application::view(const MatchSight& sight, double now_s) {
   if (chosen_viewpoint_) view_.viewpoint = *chosen_viewpoint_;
   else if (sight.own_team)
@@ -306,12 +320,7 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   match_->advance(now_s);
   follow_phase();
   if (match_->hand_count() > 0) told_.series.look(match_->sight());
-  if (has_motion() && wish_.kind != MatchWish::Kind::bots) {
-    feel_.impacts.look(match_->sight(), now_s);
-    if (wish_.kind != MatchWish::Kind::replay) feel_.replay.look(match_->sight(), now_s);
-  } else {
-    feel_ = {};
-  }
+  look_for_effects(now_s);
   if (surroundings_.sound)  // behind the menu too, where music goes on and its volume changes
     surroundings_.sound(
         wish_.kind == MatchWish::Kind::bots ? std::vector<Noise>{} : match_->sight().noises,

@@ -91,6 +91,7 @@ class Application {
   struct Feel {
     ImpactEffects impacts;
     GoalReplay replay;
+    double clock_s = 0.0;  ///< stands where the match stands, and goes at a replay's speed
   };
 
   // application.cpp
@@ -103,6 +104,7 @@ class Application {
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
   bool has_motion() const;
+  void look_for_effects(double now_s);
   bool shows_goal_again() const;
   void remember() const;
   void use(Hint hint);

@@ -2,6 +2,7 @@
 #include "game/view/first_minute.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "game/view/picture_of.h"
@@ -14,7 +15,8 @@ std::string keys_of(const KeySet& keys) {
   std::string words;
   for (const game::Key key : {game::Key::up, game::Key::left, game::Key::down, game::Key::right}) {
     std::string name = key_code_name(keys[static_cast<std::size_t>(key)]).value_or("?");
-    if (name.size() == 1) name.front() = static_cast<char>(std::toupper(name.front()));
+    if (name.size() == 1)
+      name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
     words += (words.empty() ? "" : " ") + name;
   }
   return words;

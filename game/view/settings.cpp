@@ -87,7 +87,7 @@ class Reader {
       const auto name = node.value_exact<std::string>();
       if (const auto control = name ? control_from_name(*name) : std::nullopt)
         settings.control = *control;
-      else problem(node, "control must be \"keys\", \"pointer\" or \"gamepad\"");
+      else if (!is_newer_) problem(node, "control must be \"keys\", \"pointer\" or \"gamepad\"");
     } else if (key == "dead_zone") {
       read_number(node, "dead_zone", 0.0, dead_zone_max, settings.dead_zone);
     } else if (key == "sensitivity") {
@@ -120,7 +120,7 @@ class Reader {
         return;
       }
     }
-    problem(node, "window must be [width, height], from 320 and 240 to 8192");
+    if (!is_newer_) problem(node, "window must be [width, height], from 320 and 240 to 8192");
   }
 
   void read_hints(const toml::node& node) {
@@ -140,7 +140,7 @@ class Reader {
     const auto name = node.value_exact<std::string>();
     if (const auto kind = name ? palette_from_name(*name) : std::nullopt)
       read_.settings.palette = *kind;
-    else problem(node, "colours must be " + palette_names());
+    else if (!is_newer_) problem(node, "colours must be " + palette_names());
   }
 
   void read_number(const toml::node& node, const char* name, double least, double most,

@@ -99,6 +99,23 @@ TEST(ATrail, TurnsWithThePuckIsNoneOfASlowOneAndEndsWhereThePuckWasPutElsewhere)
   EXPECT_TRUE(slow.picture().streaks.empty());
 }
 
+TEST(ATrail, ReachesTheWallFromWhichAPuckReturnsOnItsOwnWay) {
+  FlownPuck table({0.0, -2.0});
+  table.fly(0.1);
+  const auto contact = static_cast<float>(table.puck().position.y());
+  table.puck().velocity.y() = 2.0;
+  table.fly(0.1);
+  double length = 0.0;
+  bool reaches_the_wall = false;
+  for (const Streak& streak : table.picture().streaks) {
+    if (streak.half_width < 0.01f) continue;  // a spark
+    length += static_cast<double>(std::abs(streak.end_y - streak.y));
+    reaches_the_wall |= std::abs(streak.y - contact) < 1e-4f;
+  }
+  EXPECT_NEAR(length, 0.4, 0.02) << "there and back";
+  EXPECT_TRUE(reaches_the_wall);
+}
+
 std::size_t sparks_after(double change) {
   FlownPuck table({0.0, -0.5 * change});
   table.fly(0.05);

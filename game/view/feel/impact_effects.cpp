@@ -19,12 +19,14 @@ constexpr Colour spark_colour{1.0f, 0.42f, 0.05f, 1.0f}, trail_colour{1.0f, 0.60
 
 bool is_impact(Noise::Kind kind) { return kind <= Noise::Kind::puck_on_puck; }
 
-/// What `b` is off the line from `a` to `c`.
-double off_line(const Vector2& a, const Vector2& b, const Vector2& c) {
+/// Whether `b` is on the straight way from `a` to `c`. Who returns on its own way turns at `b`.
+bool is_on_way(const Vector2& a, const Vector2& b, const Vector2& c) {
+  constexpr double off_max = 5e-4;  // m
   const Vector2 way = c - a;
   const double length = way.norm();
-  if (length < 1e-9) return (b - a).norm();
-  return std::abs(way.x() * (b - a).y() - way.y() * (b - a).x()) / length;
+  if (length < 1e-9) return (b - a).norm() < off_max;
+  return (b - a).dot(c - b) >= 0.0 &&
+         std::abs(way.x() * (b - a).y() - way.y() * (b - a).x()) / length < off_max;
 }
 
 }  // namespace
@@ -39,10 +41,12 @@ void ImpactEffects::look(const MatchSight& sight, double now_s) {
     pucks_.clear(), sparks_.clear();
     return;
   }
-  for (Puck& puck : pucks_) puck.is_there = false;
+  for (Puck& puck : pucks_) puck.place.reset();
+  std::size_t place = 0;
   for (const Thing& thing : sight.things)
-    if (is_puck(thing)) follow(thing, elapsed);
-  std::erase_if(pucks_, [](const Puck& puck) { return !puck.is_there; });
+    if (is_puck(thing)) follow(thing, elapsed).place = place++;
+  std::erase_if(pucks_, [](const Puck& puck) { return !puck.place; });
+  std::ranges::sort(pucks_, {}, [](const Puck& puck) { return *puck.place; });
   std::erase_if(sparks_, [now_s](const Spark& spark) { return now_s > spark.born + spark_s; });
   for (const Noise& noise : sight.noises) {
     if (noise.kind == Noise::Kind::goal) nudge_ = 0.011, nudged_s_ = now_s;
@@ -56,24 +60,24 @@ void ImpactEffects::look(const MatchSight& sight, double now_s) {
 }
 
 /// Pucks fly straight, so that corners are enough of the way.
-void ImpactEffects::follow(const Thing& thing, double elapsed_s) {
+ImpactEffects::Puck& ImpactEffects::follow(const Thing& thing, double elapsed_s) {
   auto found = std::ranges::find(pucks_, thing.id, &Puck::id);
   if (found == pucks_.end()) {
     pucks_.push_back({.id = thing.id, .way = {}});
     found = pucks_.end() - 1;
   }
   Puck& puck = *found;
-  puck.is_there = true;
   puck.radius = thing.half_extent.x();
   puck.spin = thing.spin != 0.0 ? thing.spin : puck.spin * std::exp(-elapsed_s / spin_drag_s);
   puck.angle = std::remainder(puck.angle + puck.spin * elapsed_s, 6.283185307179586);
   std::vector<Place>& way = puck.way;
   if (!way.empty() && (thing.position - way.back().at).norm() > leap) way.clear();
-  if (way.size() >= 2 && off_line(way[way.size() - 2].at, way.back().at, thing.position) < 5e-4 &&
+  if (way.size() >= 2 && is_on_way(way[way.size() - 2].at, way.back().at, thing.position) &&
       way.back().time - way[way.size() - 2].time < 0.1)
     way.pop_back();
   way.push_back({thing.position, now_s_});
   while (way.size() > 2 && way[1].time < now_s_ - trail_s) way.erase(way.begin());
+  return puck;
 }
 
 /// Sparks fly from the contact, more and faster ones from a harder hit. A rough disc that hits

@@ -2,7 +2,9 @@
 // turning pucks, and a nudge of the camera.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "game/model/random_stream.h"
@@ -17,7 +19,8 @@ class ImpactEffects {
   static constexpr double trail_s = 0.3, spark_s = 0.4, nudge_s = 0.35;
   static constexpr std::size_t sparks_max = 96;
 
-  /// Takes up the impacts of `sight`, which is of `now_s` [s].
+  /// Takes up the impacts of `sight`, which is of `now_s` [s] by a clock that goes as the match
+  /// does.
   void look(const MatchSight& sight, double now_s);
   /// Into the picture of the last sight, whose pieces are in the order of its things.
   void add_to(Picture& picture) const;
@@ -32,13 +35,13 @@ class ImpactEffects {
     std::vector<Place> way;  ///< corners, and the latest place last
     double angle = 0.0, spin = 0.0;
     double radius = 0.0;
-    bool is_there = true;
+    std::optional<std::size_t> place{};  ///< among the pucks of the last sight, if it is there
   };
   struct Spark {
     Vector2 from, velocity;
     double born;
   };
-  void follow(const Thing& thing, double elapsed_s);
+  Puck& follow(const Thing& thing, double elapsed_s);
   void fly(const Noise& noise, const Thing& puck);
   void add_trail(const Puck& puck, Picture& picture) const;
   void add_sparks(Picture& picture) const;
