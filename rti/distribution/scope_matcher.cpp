@@ -24,14 +24,14 @@ void ScopeMatcher::apply_filter_changes(std::span<const im::Change> changes) {
   // All memberships come first: the attributes in scope may depend on several regions.
   Subscriptions& subscriptions = parts_.subscriptions;
   const bool decides_tiers = parts_.turns.decides_tiers();
+  const bool holds_updates = parts_.turns.holds_updates();
   const auto is_due = [](const im::Change& each) { return each.transition == im::Transition::due; };
   for (const im::Change& each : changes)
     if (!is_due(each)) subscriptions.take(each, decides_tiers);
   for (const im::Change& each : changes) {
-    if (is_due(each)) {
-      prompt(each);
-      continue;
-    }
+    // A filter takes what enters one subscription for told, though it was in another's scope.
+    if (holds_updates && each.transition != im::Transition::left) prompt(each);
+    if (is_due(each)) continue;
     const DeclaredInterest& declared = subscriptions.of(subscriptions.federate_of(each.subscriber));
     if (declared.is_changed) continue;
     for (const ObjectSlot slot : parts_.regions.of_entity(each.entity).objects)
@@ -40,9 +40,10 @@ void ScopeMatcher::apply_filter_changes(std::span<const im::Change> changes) {
 }
 
 /// What was held back of the entity waits no longer.
-void ScopeMatcher::prompt(const im::Change& due) {
-  FederateInterest& interest = parts_.scopes.of(parts_.subscriptions.federate_of(due.subscriber));
-  for (const ObjectSlot slot : parts_.regions.of_entity(due.entity).objects)
+void ScopeMatcher::prompt(const im::Change& change) {
+  FederateInterest& interest =
+      parts_.scopes.of(parts_.subscriptions.federate_of(change.subscriber));
+  for (const ObjectSlot slot : parts_.regions.of_entity(change.entity).objects)
     if (interest.in_scope.contains(slot)) interest.turns->prompt.insert(slot);
 }
 

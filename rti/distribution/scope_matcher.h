@@ -44,7 +44,7 @@ class ScopeMatcher {
   using Regional = DeclaredInterest::Regional;
 
   void apply_filter_changes(std::span<const im::Change> changes);
-  void prompt(const im::Change& due);
+  void prompt(const im::Change& change);
   void apply_changed_regions(std::vector<ObjectSlot>& changed);
   void reconsider_around(const DeclaredInterest& declared, const Regional& regional);
   void reconsider_all(const DeclaredInterest& declared);

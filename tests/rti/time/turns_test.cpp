@@ -283,6 +283,34 @@ TEST(HeldUpdates, OfOneWhoSubscribesEverywhereDoNotWait) {
   EXPECT_EQ(sea.heard(0, buoy), 2.0f);
 }
 
+/// The filter takes what enters for told in full, though the object was in scope all the while.
+TEST(HeldUpdates, AreToldWhenTheirObjectComesIntoAnotherSubscriptionOrGetsAnotherRegion) {
+  BuoyedSea sea("region with vfc(at=0 matches=60)");
+  Buoy& buoy = sea.add_buoy(95.0, 50.0);
+  Station& watcher = sea.add_watcher({0.0, 0.0, 100.0, 100.0});
+  sea.rig.settle();
+  const auto say = [&](float value) {
+    sea.say(buoy, value);
+    sea.round();
+  };
+  say(1.0f);
+  EXPECT_EQ(sea.heard(0, buoy), 0.5f);
+  const RegionHandle close = watcher.ambassador.create_region();
+  watcher.ambassador.set_region(close, {90.0, 40.0, 100.0, 56.0});
+  watcher.ambassador.commit_region_modifications(close);
+  watcher.ambassador.subscribe_object_class_attributes(ferry, {speed, destination}, close);
+  sea.round();
+  EXPECT_EQ(sea.heard(0, buoy), 1.0f);
+  say(2.0f);
+  EXPECT_EQ(sea.heard(0, buoy), 1.0f);
+  const RegionHandle other = sea.pilot.ambassador.create_region();
+  sea.pilot.ambassador.set_region(other, {94.0, 50.0, 94.0, 50.0});
+  sea.pilot.ambassador.commit_region_modifications(other);
+  sea.pilot.ambassador.associate_regions_for_updates(buoy.object, other);
+  sea.round(), sea.round();
+  EXPECT_EQ(sea.heard(0, buoy), 2.0f);
+}
+
 TEST(HeldUpdates, KeepEverybodyWithinTheirBoundsWhateverHappens) {
   for (unsigned seed = 1; seed <= 4; ++seed) wander("region with vfc(at=0 matches=4)", seed, 5);
   for (unsigned seed = 1; seed <= 4; ++seed)
