@@ -2,15 +2,24 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <unordered_map>
 
 #include "rti/standard/standard_headers.h"
 #include "rti/types.h"
 
 namespace rink::standard {
+
+/// What a callback is about.
+struct CallbackSubject {
+  std::size_t size = 0;            ///< of its values [bytes]
+  rti::RetractionHandle handle{};  ///< of the message, if its sender may take it back
+  rti::ObjectHandle object{};
+};
 
 /// In the order in which they came. All is called under the mutex of the federate, which is let go
 /// while a callback runs, so that it may call any service.
@@ -18,13 +27,16 @@ class Deliveries {
  public:
   using Callback = std::function<void(rti1516e::FederateAmbassador&)>;
 
-  explicit Deliveries(rti1516e::FederateAmbassador& user) : user_(user) {}
+  /// Null takes none.
+  explicit Deliveries(rti1516e::FederateAmbassador* user) : user_(user) {}
 
-  /// `size` is what its values take [bytes]; `handle` names the message if it came in time-stamp
-  /// order.
-  void put(Callback callback, std::size_t size = 0, const rti::RetractionHandle& handle = {});
+  void put(Callback callback, const CallbackSubject& subject = {});
   /// Forgets a message that its sender retracts; false if it has been delivered.
   bool take_back(const rti::RetractionHandle& handle);
+  /// What waits now about an object that the federate has deleted is not delivered.
+  void drop(rti::ObjectHandle object);
+  /// Unless the deletion is retracted before its turn comes.
+  void undo_drop(rti::ObjectHandle object) { dropped_.erase(object); }
   void clear();
   /// While they are disabled, none is ready.
   void enable(bool is_enabled) { is_enabled_ = is_enabled; }
@@ -39,13 +51,16 @@ class Deliveries {
  private:
   struct Waiting {
     Callback callback;
-    std::size_t size;
-    rti::RetractionHandle handle;
+    CallbackSubject subject;
+    std::uint64_t number;  ///< counts all that were put
   };
-  static std::size_t cost(const Waiting& waiting) { return sizeof(Waiting) + waiting.size; }
+  static std::size_t cost(const Waiting& waiting) { return sizeof(Waiting) + waiting.subject.size; }
+  void skip_dropped();
 
-  rti1516e::FederateAmbassador& user_;
+  rti1516e::FederateAmbassador* user_;
   std::deque<Waiting> waiting_;
+  std::uint64_t put_count_ = 0;
+  std::unordered_map<rti::ObjectHandle, std::uint64_t> dropped_;  ///< and what had been put then
   std::size_t waiting_bytes_ = 0;
   bool is_enabled_ = true;
   std::thread::id deliverer_;

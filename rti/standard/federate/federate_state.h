@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "rti/ambassador.h"
 #include "rti/standard/federate/declarations.h"
@@ -18,6 +19,13 @@ namespace rink::standard {
 struct KnownObject {
   rti::ObjectClassHandle object_class;  ///< as the federate knows it
   std::string name;
+};
+
+/// An object that the federate deletes at the time of the handle.
+struct TimedDeletion {
+  rti::RetractionHandle handle;
+  rti::ObjectHandle object;
+  KnownObject known;
 };
 
 /// Time as the federate has been told it: the core may be a few callbacks ahead.
@@ -40,13 +48,25 @@ struct Answers {
 };
 
 struct FederateState {
-  explicit FederateState(rti1516e::FederateAmbassador& user) : deliveries(user) {}
+  explicit FederateState(rti1516e::FederateAmbassador* user = nullptr) : deliveries(user) {}
+
+  /// Forgets an object that the federate has deleted, and what of it waits.
+  void forget(rti::ObjectHandle object) {
+    objects.erase(object);
+    deliveries.drop(object);
+  }
+  /// The same for a deletion at `handle.time`, until `retract`.
+  void forget(rti::ObjectHandle object, const rti::RetractionHandle& handle);
+  void retract(const rti::RetractionHandle& handle);
+  /// Forgets an execution.
+  void leave();
 
   Deliveries deliveries;
   Times times{};
   ToldTime time{};
   Declarations declarations{};
   std::unordered_map<rti::ObjectHandle, KnownObject> objects{};
+  std::vector<TimedDeletion> deletions{};  ///< that may still be retracted
   std::set<std::string> reserved_names{};
   rti::ResignAction resign_directive = rti::ResignAction::cancel_then_delete_then_divest;
   Answers answers{};

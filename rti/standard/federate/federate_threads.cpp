@@ -6,8 +6,10 @@
 #include <array>
 #include <chrono>
 #include <iostream>
+#include <stdexcept>
 
 #include "rti/standard/federate/federate.h"
+#include "rti/standard/wide_text.h"
 
 namespace rink::standard {
 
@@ -20,6 +22,12 @@ constexpr int longest_sleep_ms = 20;
 
 double seconds_now() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+/// Infinity and NaN are no instants of a clock.
+double patience(double seconds) {
+  constexpr double a_year = 3.2e7;
+  return seconds > 0.0 ? std::min(seconds, a_year) : 0.0;
 }
 
 Clock::time_point instant(double seconds) {
@@ -36,20 +44,43 @@ void Federate::wake() {
   [[maybe_unused]] const ssize_t written = write(alarm_.number(), &one, sizeof one);
 }
 
+void Federate::start_threads() {
+  carrier_ = std::thread([self = shared_from_this()] { self->carry(); });
+  if (is_immediate_) deliverer_ = std::thread([self = shared_from_this()] { self->deliver(); });
+}
+
+/// Ends the connection, and what any thread waits for. From within a callback, the thread that
+/// delivers it ends once the callback has returned.
+void Federate::end_threads(Lock& lock) {
+  const bool is_here = state_.deliveries.is_delivering_here();
+  is_ending_ = true;
+  is_woken_ = false;
+  wake();
+  changed_.notify_all();
+  std::thread carrier = std::move(carrier_), deliverer = std::move(deliverer_);
+  lock.unlock();
+  if (carrier.joinable()) carrier.join();
+  if (deliverer.get_id() == std::this_thread::get_id()) deliverer.detach();
+  if (deliverer.joinable()) deliverer.join();
+  lock.lock();
+  changed_.wait(lock, [&] {
+    return !is_managing_ && !is_asking_ && (is_here || !state_.deliveries.is_delivering());
+  });
+  drop_connection();
+  is_connected_ = is_joined_ = false;
+  is_ending_ = is_here;
+}
+
 void Federate::carry() {
   Lock lock(mutex_);
   while (!is_ending_) {
     is_woken_ = false;
+    if (connection_ && !connection_->is_finished())
+      if (const auto fault = fault_of([&] { exchange(); })) lose(*fault);
     const bool is_live = connection_ && !connection_->is_finished();
-    if (is_live) connection_->exchange();
-    if (state_.deliveries.waiting_bytes() > rti::Ambassador::waiting_callbacks_max && is_live) {
-      receiver_.connection_lost("too many callbacks wait for the federate");
-      connection_.reset();
-    }
-    const bool is_behind = connection_ && is_live && connection_->is_behind();
-    std::array<pollfd, 2> files{
-        pollfd{alarm_.number(), POLLIN, 0},
-        pollfd{is_live && connection_ ? connection_->wait_file() : -1, POLLIN, 0}};
+    const bool is_behind = is_live && connection_->is_behind();
+    std::array<pollfd, 2> files{pollfd{alarm_.number(), POLLIN, 0},
+                                pollfd{is_live ? connection_->wait_file() : -1, POLLIN, 0}};
     lock.unlock();
     changed_.notify_all();
     poll(files.data(), files.size(), is_behind ? 0 : longest_sleep_ms);
@@ -59,24 +90,33 @@ void Federate::carry() {
   }
 }
 
+void Federate::exchange() {
+  connection_->exchange();
+  if (state_.deliveries.waiting_bytes() > rti::Ambassador::waiting_callbacks_max)
+    throw std::runtime_error("too many callbacks wait for the federate");
+}
+
+void Federate::lose(const std::string& why) {
+  if (!state_.lost_because) receiver_.connection_lost(why);
+  drop_connection();
+}
+
 /// The immediate model. An exception of a callback has nowhere to go: it is printed.
 void Federate::deliver() {
   Lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return is_ending_ || state_.deliveries.is_ready(); });
     if (is_ending_) return;
-    try {
-      state_.deliveries.deliver_one(lock);
-    } catch (const rti1516e::Exception& exception) {
-      std::wcerr << L"rti1516e: a callback threw: " << exception.what() << std::endl;
-    } catch (const std::exception& exception) {
-      std::wcerr << L"rti1516e: a callback threw: " << exception.what() << std::endl;
-    }
+    if (const auto fault = fault_of([&] { state_.deliveries.deliver_one(lock); }))
+      std::wcerr << L"rti1516e: a callback threw: " << to_wide(*fault) << std::endl;
+    if (is_ending_) return;
+    changed_.notify_all();
   }
 }
 
 void Federate::check_outside_callback() {
   const Lock lock(mutex_);
+  if (!is_connected_) throw rti1516e::NotConnected(L"connect first");
   if (state_.deliveries.is_delivering_here())
     throw rti1516e::CallNotAllowedFromWithinCallback(L"call it once the callback has returned");
 }
@@ -84,34 +124,37 @@ void Federate::check_outside_callback() {
 /// True if a callback is ready before `until` [s]. In the immediate model none is for this thread.
 bool Federate::deliver_until(Lock& lock, double until) {
   const auto is_due = [&] { return !is_immediate_ && state_.deliveries.is_ready(); };
-  if (!changed_.wait_until(lock, instant(until), is_due)) return false;
-  try {
-    state_.deliveries.deliver_one(lock);
-  } catch (const rti1516e::Exception& exception) {
-    throw rti1516e::RTIinternalError(L"a callback threw: " + exception.what());
-  }
+  if (!changed_.wait_until(lock, instant(until), [&] { return is_ending_ || is_due(); }))
+    return false;
+  if (is_ending_) return false;
+  const auto fault = fault_of([&] { state_.deliveries.deliver_one(lock); });
+  changed_.notify_all();
+  if (fault) throw rti1516e::RTIinternalError(L"a callback threw: " + to_wide(*fault));
   return true;
 }
 
 bool Federate::evoke_one(double least_s) {
+  const std::shared_ptr<Federate> self = shared_from_this();
   check_outside_callback();
   Lock lock(mutex_);
-  deliver_until(lock, seconds_now() + least_s);
+  deliver_until(lock, seconds_now() + patience(least_s));
   return !is_immediate_ && state_.deliveries.is_ready();
 }
 
 bool Federate::evoke_many(double least_s, double most_s) {
+  const std::shared_ptr<Federate> self = shared_from_this();
   check_outside_callback();
   Lock lock(mutex_);
-  const double begin = seconds_now();
-  while (deliver_until(lock, begin + least_s))
-    if (seconds_now() >= begin + std::max(least_s, most_s)) break;
+  const double begin = seconds_now(), least = patience(least_s), most = patience(most_s);
+  while (deliver_until(lock, begin + least))
+    if (seconds_now() >= begin + std::max(least, most)) break;
   return !is_immediate_ && state_.deliveries.is_ready();
 }
 
 void Federate::enable_callbacks(bool is_enabled) {
   {
     const Lock lock(mutex_);
+    if (!is_connected_) throw rti1516e::NotConnected(L"connect first");
     state_.deliveries.enable(is_enabled);
   }
   changed_.notify_all();
