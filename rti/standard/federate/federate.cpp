@@ -3,6 +3,7 @@
 
 #include <sys/eventfd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <stdexcept>
@@ -72,7 +73,7 @@ void Federate::begin(rti1516e::FederateAmbassador& user, rti1516e::CallbackModel
   if (!alarm_) throw rti1516e::ConnectionFailed(L"no file is left for the connection");
   settings_ = std::move(settings);
   is_immediate_ = model == rti1516e::HLA_IMMEDIATE;
-  state_ = FederateState(&user);
+  state_.begin(user);
   modules_.clear();
   model_.reset();
   is_connected_ = true;
@@ -119,6 +120,7 @@ void Federate::check_joined() const {
 
 void Federate::drop_connection() {
   state_.core = nullptr;
+  state_.model.reset();
   connection_.reset();
   ++connection_count_;
   changed_.notify_all();
@@ -129,11 +131,12 @@ void Federate::reach(std::shared_ptr<const rti::Fom> model, Lock& lock) {
   const std::string place = settings_.host + ":" + std::to_string(settings_.port);
   drop_connection();
   try {
-    connection_ = std::make_unique<Connection>(std::move(model), receiver_, settings_);
+    connection_ = std::make_unique<Connection>(model, receiver_, settings_);
   } catch (const std::runtime_error& error) {
     throw rti1516e::ConnectionFailed(to_wide(error.what()));
   }
   state_.core = &connection_->core();
+  state_.model = std::move(model);
   state_.answers = {};
   wake();
   changed_.wait(lock, [&] {
@@ -217,8 +220,10 @@ void Federate::list() {
   const Turn turn(*this, is_managing_, lock);
   if (is_joined_) return list_beside(lock);
   ensure_connection(lock);
-  translated([&] { connection_->core().list_federation_executions(); });
-  wake();
+  translated([&] {
+    connection_->core().list_federation_executions();
+    connection_->flush();
+  });
 }
 
 void Federate::list_beside(Lock& lock) {
@@ -253,11 +258,11 @@ rti::FederateHandle Federate::join(std::string name, const std::string& type,
   if (is_joined_)
     throw rti1516e::FederateAlreadyExecutionMember(L"resign before joining another execution");
   std::shared_ptr<const rti::Fom> model = model_;
-  if (!model || (settings_.fom.empty() && !additional.empty())) {
-    std::vector<std::string> modules = modules_;
-    modules.insert(modules.end(), additional.begin(), additional.end());
+  std::vector<std::string> modules = modules_;
+  for (const std::string& each : additional)
+    if (std::find(modules.begin(), modules.end(), each) == modules.end()) modules.push_back(each);
+  if (!model || (settings_.fom.empty() && modules != modules_))
     model = load_model(settings_.fom.empty() ? modules : settings_.fom);
-  }
   if (modules_.empty() && !settings_.time.empty()) state_.times = Times(to_wide(settings_.time));
   if (name.empty()) name = made_up_name(type);
   try {
@@ -288,9 +293,11 @@ void Federate::resign(rti::ResignAction action) {
   check_joined();
   const Turn turn(*this, is_managing_, lock);
   check_joined();
-  translated([&] { connection_->core().resign(action); });
+  translated([&] {
+    connection_->core().resign(action);
+    connection_->flush();
+  });
   is_joined_ = false;
-  wake();
   // The RTI closes the connection once the federate has left, so that it may destroy the execution.
   changed_.wait_for(lock, std::chrono::seconds(2),
                     [&] { return !connection_ || connection_->is_finished() || is_ending_; });
@@ -298,10 +305,20 @@ void Federate::resign(rti::ResignAction action) {
   state_.leave();
 }
 
-void Federate::send_later(Lock& lock) {
-  if (connection_->core().outgoing().size() >= send_from) connection_->flush();
+void Federate::send_soon(Lock& lock) {
+  if (connection_->core().outgoing().size() >= send_from) return send_now(lock);
+  if (sending_.is_due || connection_->core().outgoing().empty()) return;
+  // Bytes by themselves go at once, without another thread; a stream of them goes by parts.
+  if (std::chrono::steady_clock::now() >= sending_.at + send_gap) return send_now(lock);
+  sending_.is_due = true;
   wake();
+}
+
+void Federate::send_now(Lock& lock) {
+  connection_->flush();
+  sending_.at = std::chrono::steady_clock::now();
   if (connection_->unsent_bytes() < wait_from) return;
+  wake();
   const std::uint64_t mine = connection_count_;
   changed_.wait(lock, [&] {
     return is_ending_ || connection_count_ != mine || connection_->unsent_bytes() < wait_from ||

@@ -2,6 +2,7 @@
 // mutex between them.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -44,6 +45,9 @@ class Federate : public std::enable_shared_from_this<Federate> {
   /// FederateNotExecutionMember, and what the core refuses by the standard's exceptions.
   template <class Service>
   auto call(const Service& service);
+  /// The same for what others wait for: it is sent before this returns.
+  template <class Service>
+  void call_at_once(const Service& service);
   /// The same, then waits until `is_answered(answers)`. One thread asks at a time, so that each
   /// gets its own answer.
   template <class Service, class Answered>
@@ -68,6 +72,9 @@ class Federate : public std::enable_shared_from_this<Federate> {
   void enable_callbacks(bool is_enabled);
 
  private:
+  /// What is sent within so long goes together: a write and the receiver's waking cost more than
+  /// ten updates.
+  static constexpr std::chrono::microseconds send_gap{100};
   using Lock = std::unique_lock<std::mutex>;
   /// Holds a flag that one thread has at a time; the others wait for it.
   class Turn;
@@ -88,10 +95,14 @@ class Federate : public std::enable_shared_from_this<Federate> {
   /// A connection before the join, for questions to the host.
   void ensure_connection(Lock& lock);
   void list_beside(Lock& lock);
-  /// Has the bytes of a service carried, and holds its caller up while too many wait.
-  void send_later(Lock& lock);
+  /// Has the bytes of a service carried: at once, or with those of the next instant, if some were
+  /// sent just before.
+  void send_soon(Lock& lock);
+  /// Sends, and holds its caller up while too many bytes wait.
+  void send_now(Lock& lock);
   void wake();
-  bool deliver_until(Lock& lock, double until);
+  template <class Enough>
+  bool deliver_until(Lock& lock, double until, const Enough& is_enough);
   void carry();
   void exchange();
   void lose(const std::string& why);
@@ -108,6 +119,10 @@ class Federate : public std::enable_shared_from_this<Federate> {
   std::vector<std::string> modules_;       ///< of the execution that it has created last
   std::shared_ptr<const rti::Fom> model_;  ///< of these
   bool is_connected_ = false, is_joined_ = false, is_ending_ = false, is_woken_ = false;
+  struct {
+    std::chrono::steady_clock::time_point at{};  ///< of the last
+    bool is_due = false;                         ///< the thread that carries sends soon
+  } sending_;
   bool is_managing_ = false, is_asking_ = false;  ///< a thread has the turn
   rti::File alarm_;                               ///< wakes the thread that carries
   std::thread carrier_, deliverer_;
@@ -133,7 +148,7 @@ void Federate::await(Lock& lock, const Answered& is_answered) {
   const auto is_over = [&] {
     return is_ending_ || connection_count_ != mine || state_.lost_because.has_value();
   };
-  wake();
+  translated([&] { connection_->flush(); });
   changed_.wait(lock, [&] { return is_over() || is_answered(); });
   // An answer that came with the end counts; those of another connection are not this thread's.
   if (connection_count_ == mine && is_answered()) return;
@@ -149,15 +164,25 @@ auto Federate::call(const Service& service) {
   if constexpr (std::is_void_v<decltype(serve())>) {
     translated([&] {
       serve();
-      send_later(lock);
+      send_soon(lock);
     });
   } else {
     return translated([&] {
       auto result = serve();
-      send_later(lock);
+      send_soon(lock);
       return result;
     });
   }
+}
+
+template <class Service>
+void Federate::call_at_once(const Service& service) {
+  Lock lock(mutex_);
+  check_joined();
+  translated([&] {
+    service(connection_->core(), state_);
+    send_now(lock);
+  });
 }
 
 template <class Service, class Answered>

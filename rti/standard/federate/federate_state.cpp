@@ -23,6 +23,17 @@ void FederateState::retract(const rti::RetractionHandle& handle) {
   deletions.erase(found);
 }
 
+void FederateState::begin(rti1516e::FederateAmbassador& user) {
+  leave();
+  deliveries.begin(user);
+  times = Times();
+  resign_directive = rti::ResignAction::cancel_then_delete_then_divest;
+  answers = {};
+  core = nullptr;
+  model.reset();
+  lost_because.reset();
+}
+
 void FederateState::leave() {
   deliveries.clear();
   declarations = {};

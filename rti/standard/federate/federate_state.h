@@ -1,6 +1,7 @@
 // What a federate of the standard's API has beside its core; all of it is used under one mutex.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "rti/standard/federate/declarations.h"
 #include "rti/standard/federate/deliveries.h"
 #include "rti/standard/times.h"
+#include "rti/standard/values.h"
 
 namespace rink::standard {
 
@@ -19,6 +21,7 @@ namespace rink::standard {
 struct KnownObject {
   rti::ObjectClassHandle object_class;  ///< as the federate knows it
   std::string name;
+  rti::ObjectClassHandle registered;  ///< as its owner has registered it
 };
 
 /// An object that the federate deletes at the time of the handle.
@@ -48,8 +51,8 @@ struct Answers {
 };
 
 struct FederateState {
-  explicit FederateState(rti1516e::FederateAmbassador* user = nullptr) : deliveries(user) {}
-
+  /// As it is at a new connection.
+  void begin(rti1516e::FederateAmbassador& user);
   /// Forgets an object that the federate has deleted, and what of it waits.
   void forget(rti::ObjectHandle object) {
     objects.erase(object);
@@ -61,7 +64,7 @@ struct FederateState {
   /// Forgets an execution.
   void leave();
 
-  Deliveries deliveries;
+  Deliveries deliveries{};
   Times times{};
   ToldTime time{};
   Declarations declarations{};
@@ -70,7 +73,9 @@ struct FederateState {
   std::set<std::string> reserved_names{};
   rti::ResignAction resign_directive = rti::ResignAction::cancel_then_delete_then_divest;
   Answers answers{};
+  Update sent{};                              ///< the last update, whose memory the next one uses
   rti::Ambassador* core = nullptr;            ///< null while there is no connection
+  std::shared_ptr<const rti::Fom> model{};    ///< the core's
   std::optional<std::string> lost_because{};  ///< the connection has ended by itself
 };
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "rti/standard/federate/federate.h"
 #include "rti/standard/wide_text.h"
@@ -18,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Heartbeats are due every second, and bytes wake at once.
-constexpr int longest_sleep_ms = 20;
+constexpr std::chrono::nanoseconds longest_sleep = std::chrono::milliseconds(20), no_time{0};
 
 double seconds_now() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
@@ -54,6 +55,7 @@ void Federate::start_threads() {
 void Federate::end_threads(Lock& lock) {
   const bool is_here = state_.deliveries.is_delivering_here();
   is_ending_ = true;
+  state_.deliveries.interrupt();
   is_woken_ = false;
   wake();
   changed_.notify_all();
@@ -75,18 +77,31 @@ void Federate::carry() {
   Lock lock(mutex_);
   while (!is_ending_) {
     is_woken_ = false;
-    if (connection_ && !connection_->is_finished())
-      if (const auto fault = fault_of([&] { exchange(); })) lose(*fault);
+    std::chrono::nanoseconds wait =
+        sending_.is_due ? sending_.at + send_gap - Clock::now() : no_time;
+    if (wait <= no_time) {
+      if (std::exchange(sending_.is_due, false)) sending_.at = Clock::now();
+      if (connection_ && !connection_->is_finished())
+        if (const auto fault = fault_of([&] { exchange(); })) lose(*fault);
+      wait = longest_sleep;
+    }
     const bool is_live = connection_ && !connection_->is_finished();
-    const bool is_behind = is_live && connection_->is_behind();
+    if (is_live && connection_->is_behind()) {
+      wait = no_time;
+      sending_.is_due = false;
+    }
     std::array<pollfd, 2> files{pollfd{alarm_.number(), POLLIN, 0},
                                 pollfd{is_live ? connection_->wait_file() : -1, POLLIN, 0}};
     lock.unlock();
     changed_.notify_all();
-    poll(files.data(), files.size(), is_behind ? 0 : longest_sleep_ms);
-    std::uint64_t count = 0;
-    [[maybe_unused]] const ssize_t taken = read(alarm_.number(), &count, sizeof count);
+    const timespec patience{0, static_cast<long>(wait.count())};
+    if (ppoll(files.data(), files.size(), &patience, nullptr) > 0 && files[0].revents != 0) {
+      std::uint64_t count = 0;
+      [[maybe_unused]] const ssize_t taken = read(alarm_.number(), &count, sizeof count);
+    }
     lock.lock();
+    // Bytes have come: they are read, and what waits is sent with the answers to them.
+    if (files[1].revents != 0) sending_.is_due = false;
   }
 }
 
@@ -107,7 +122,7 @@ void Federate::deliver() {
   while (true) {
     changed_.wait(lock, [&] { return is_ending_ || state_.deliveries.is_ready(); });
     if (is_ending_) return;
-    if (const auto fault = fault_of([&] { state_.deliveries.deliver_one(lock); }))
+    if (const auto fault = fault_of([&] { state_.deliveries.deliver(lock, [] { return false; }); }))
       std::wcerr << L"rti1516e: a callback threw: " << to_wide(*fault) << std::endl;
     if (is_ending_) return;
     changed_.notify_all();
@@ -122,12 +137,13 @@ void Federate::check_outside_callback() {
 }
 
 /// True if a callback is ready before `until` [s]. In the immediate model none is for this thread.
-bool Federate::deliver_until(Lock& lock, double until) {
+template <class Enough>
+bool Federate::deliver_until(Lock& lock, double until, const Enough& is_enough) {
   const auto is_due = [&] { return !is_immediate_ && state_.deliveries.is_ready(); };
   if (!changed_.wait_until(lock, instant(until), [&] { return is_ending_ || is_due(); }))
     return false;
   if (is_ending_) return false;
-  const auto fault = fault_of([&] { state_.deliveries.deliver_one(lock); });
+  const auto fault = fault_of([&] { state_.deliveries.deliver(lock, is_enough); });
   changed_.notify_all();
   if (fault) throw rti1516e::RTIinternalError(L"a callback threw: " + to_wide(*fault));
   return true;
@@ -137,7 +153,7 @@ bool Federate::evoke_one(double least_s) {
   const std::shared_ptr<Federate> self = shared_from_this();
   check_outside_callback();
   Lock lock(mutex_);
-  deliver_until(lock, seconds_now() + patience(least_s));
+  deliver_until(lock, seconds_now() + patience(least_s), [] { return true; });
   return !is_immediate_ && state_.deliveries.is_ready();
 }
 
@@ -146,8 +162,10 @@ bool Federate::evoke_many(double least_s, double most_s) {
   check_outside_callback();
   Lock lock(mutex_);
   const double begin = seconds_now(), least = patience(least_s), most = patience(most_s);
-  while (deliver_until(lock, begin + least))
-    if (seconds_now() >= begin + std::max(least, most)) break;
+  const double end = begin + std::max(least, most);
+  const auto is_enough = [end] { return seconds_now() >= end; };
+  while (deliver_until(lock, begin + least, is_enough) && !is_enough()) {
+  }
   return !is_immediate_ && state_.deliveries.is_ready();
 }
 

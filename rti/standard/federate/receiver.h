@@ -115,10 +115,8 @@ class Receiver final : public rti::FederateAmbassador {
   template <class Call, class... Arguments>
   void deliver_of(rti::ObjectHandle object, Call call, Arguments... arguments);
   const KnownObject* knows(rti::ObjectHandle object);
-  struct Reflection;
   struct Reception;
-  bool reads(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
-             Reflection& reflection);
+  void take(WaitingUpdate& update, rti::Bytes values);
   bool reads(rti::InteractionClassHandle sent, rti::Bytes parameters, const rti::Stamp& stamp,
              Reception& reception) const;
   /// Delivers a removal, after which the federate knows the object no longer.

@@ -24,13 +24,6 @@ rti1516e::OrderType received_order(const rti::TimedStamp& timed) {
 
 }  // namespace
 
-/// What of an update the federate has subscribed to.
-struct Receiver::Reflection {
-  rti1516e::ObjectInstanceHandle object;
-  rti1516e::AttributeHandleValueMap values;
-  rti1516e::TransportationType type;
-};
-
 /// An interaction as of the class that the federate knows it by.
 struct Receiver::Reception {
   rti1516e::InteractionClassHandle interaction_class;
@@ -53,21 +46,37 @@ const KnownObject* Receiver::knows(rti::ObjectHandle object) {
   return late == state_.objects.end() ? nullptr : &late->second;
 }
 
-bool Receiver::reads(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
-                     Reflection& reflection) {
-  const KnownObject* const known = knows(object);
-  if (known == nullptr) return false;
-  const rti::AttributeSet wanted = state_.declarations.subscribed(known->object_class);
-  const rti::ObjectClassHandle registered = state_.core->get_known_object_class_handle(object);
-  reflection.object = to_standard(object);
-  reflection.values = decode_update(fom(), registered, attributes, values, wanted);
-  bool is_reliable = false;
-  (attributes & wanted).for_each([&](rti::AttributeHandle each) {
-    is_reliable = is_reliable || fom().at(registered).attributes[each.value].transportation ==
-                                     rti::Transportation::reliable;
+void Receiver::take(WaitingUpdate& update, rti::Bytes values) {
+  const KnownObject* const known = knows(update.object);
+  if (known == nullptr) return;
+  update.registered = known->registered;
+  update.wanted = update.attributes & state_.declarations.subscribed(known->object_class);
+  if (update.wanted.is_empty()) return;
+  const std::vector<rti::Attribute>& all = fom().at(update.registered).attributes;
+  update.wanted.for_each([&](rti::AttributeHandle each) {
+    update.is_reliable =
+        update.is_reliable || all[each.value].transportation == rti::Transportation::reliable;
   });
-  reflection.type = is_reliable ? rti1516e::RELIABLE : rti1516e::BEST_EFFORT;
-  return !reflection.values.empty();
+  update.times = state_.times;
+  state_.deliveries.put(update, values, state_.model);
+}
+
+void deliver_update(User& user, const rti::Fom& fom, const WaitingUpdate& update,
+                    rti::Bytes values) {
+  const auto object = to_standard(update.object);
+  const auto map = decode_update(fom, update.registered, update.attributes, values, update.wanted);
+  const rti1516e::VariableLengthData tag = read_tag(update.timed.stamp).tag;
+  const auto type = update.is_reliable ? rti1516e::RELIABLE : rti1516e::BEST_EFFORT;
+  const rti1516e::SupplementalReflectInfo nothing_more;
+  if (update.kind == WaitingUpdate::Kind::plain)
+    return user.reflectAttributeValues(object, map, tag, rti1516e::RECEIVE, type, nothing_more);
+  const auto time = update.times.time(update.timed.stamp.time);
+  if (update.kind == WaitingUpdate::Kind::with_time)
+    return user.reflectAttributeValues(object, map, tag, rti1516e::RECEIVE, type, *time,
+                                       rti1516e::RECEIVE, nothing_more);
+  user.reflectAttributeValues(object, map, tag, rti1516e::TIMESTAMP, type, *time,
+                              received_order(update.timed), to_standard(update.timed.handle),
+                              nothing_more);
 }
 
 bool Receiver::reads(rti::InteractionClassHandle sent, rti::Bytes parameters,
@@ -85,7 +94,7 @@ void Receiver::discover_object_instance(rti::ObjectHandle object,
                                         std::string_view name) {
   const rti::ObjectClassHandle known = state_.declarations.known_class(fom(), object_class);
   if (!known) return;
-  state_.objects[object] = {known, std::string(name)};
+  state_.objects[object] = {known, std::string(name), object_class};
   deliver_of(
       object,
       [](User& user, const auto& handle, const auto& of_class, const std::wstring& wide) {
@@ -96,41 +105,18 @@ void Receiver::discover_object_instance(rti::ObjectHandle object,
 
 void Receiver::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes,
                                         rti::Bytes values, const rti::Stamp& stamp) {
-  Reflection reflection;
-  if (!reads(object, attributes, values, reflection)) return;
-  const ReceivedTag tag = read_tag(stamp);
-  if (!tag.has_time) {
-    state_.deliveries.put(
-        [reflection = std::move(reflection), tag = tag.tag](User& user) {
-          user.reflectAttributeValues(reflection.object, reflection.values, tag, rti1516e::RECEIVE,
-                                      reflection.type, rti1516e::SupplementalReflectInfo());
-        },
-        {.size = values.size(), .object = object});
-    return;
-  }
-  state_.deliveries.put(
-      [times = state_.times, reflection = std::move(reflection), tag = tag.tag,
-       time = stamp.time](User& user) {
-        user.reflectAttributeValues(reflection.object, reflection.values, tag, rti1516e::RECEIVE,
-                                    reflection.type, *times.time(time), rti1516e::RECEIVE,
-                                    rti1516e::SupplementalReflectInfo());
-      },
-      {.size = values.size(), .object = object});
+  WaitingUpdate update{.object = object, .attributes = attributes};
+  update.timed.stamp = stamp;
+  if (tag_gives_time(stamp)) update.kind = WaitingUpdate::Kind::with_time;
+  take(update, values);
 }
 
 void Receiver::reflect_attribute_values_with_time(rti::ObjectHandle object,
                                                   rti::AttributeSet attributes, rti::Bytes values,
                                                   const rti::TimedStamp& timed) {
-  Reflection reflection;
-  if (!reads(object, attributes, values, reflection)) return;
-  state_.deliveries.put(
-      [times = state_.times, reflection = std::move(reflection), timed](User& user) {
-        user.reflectAttributeValues(reflection.object, reflection.values, read_tag(timed.stamp).tag,
-                                    rti1516e::TIMESTAMP, reflection.type,
-                                    *times.time(timed.stamp.time), received_order(timed),
-                                    to_standard(timed.handle), rti1516e::SupplementalReflectInfo());
-      },
-      {.size = values.size(), .handle = timed.handle, .object = object});
+  WaitingUpdate update{.object = object, .attributes = attributes, .timed = timed};
+  update.kind = WaitingUpdate::Kind::in_order;
+  take(update, values);
 }
 
 void Receiver::receive_interaction(rti::InteractionClassHandle interaction_class,

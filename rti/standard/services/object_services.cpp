@@ -18,9 +18,11 @@ std::vector<std::string> narrow_names(const std::set<std::wstring>& names) {
   return all;
 }
 
-Update update_of(const rti::Ambassador& core, rti::ObjectHandle object,
-                 const rti1516e::AttributeHandleValueMap& values) {
-  return encode_update(core.fom(), core.get_known_object_class_handle(object), values);
+/// The same memory for each update.
+const Update& update_of(const rti::Ambassador& core, FederateState& state, rti::ObjectHandle object,
+                        const rti1516e::AttributeHandleValueMap& values) {
+  encode_update(core.fom(), core.get_known_object_class_handle(object), values, state.sent);
+  return state.sent;
 }
 
 }  // namespace
@@ -79,8 +81,8 @@ void ObjectServices::updateAttributeValues(
     rti1516e::ObjectInstanceHandle theObject,
     rti1516e::AttributeHandleValueMap const& theAttributeValues,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  federate().call([&](rti::Ambassador& core, FederateState&) {
-    const Update update = update_of(core, to_core(theObject), theAttributeValues);
+  federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const Update& update = update_of(core, state, to_core(theObject), theAttributeValues);
     if (update.attributes.is_empty()) return;
     core.update_attribute_values(to_core(theObject), update.attributes, update.values,
                                  tag_stamp(theUserSuppliedTag, {}));
@@ -92,7 +94,7 @@ rti1516e::MessageRetractionHandle ObjectServices::updateAttributeValues(
     rti1516e::AttributeHandleValueMap const& theAttributeValues,
     rti1516e::VariableLengthData const& theUserSuppliedTag, rti1516e::LogicalTime const& theTime) {
   return federate().call([&](rti::Ambassador& core, FederateState& state) {
-    const Update update = update_of(core, to_core(theObject), theAttributeValues);
+    const Update& update = update_of(core, state, to_core(theObject), theAttributeValues);
     const double time = state.times.number(theTime);
     const rti::Stamp stamp = tag_stamp(theUserSuppliedTag, time);
     if (update.attributes.is_empty()) return rti1516e::MessageRetractionHandle();

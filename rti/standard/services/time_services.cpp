@@ -23,7 +23,7 @@ void check_not_enabling(const FederateState& state) {
 
 template <class Request>
 void advance(Federate& federate, const rti1516e::LogicalTime& time, const Request& request) {
-  federate.call([&](rti::Ambassador& core, FederateState& state) {
+  federate.call_at_once([&](rti::Ambassador& core, FederateState& state) {
     check_not_advancing(state);
     check_not_enabling(state);
     request(core, rti::LogicalTime(state.times.number(time)));

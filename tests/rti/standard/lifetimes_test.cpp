@@ -82,6 +82,39 @@ TEST_P(StandardLifetimes, WhatWaitsOfAnObjectIsNotDeliveredOnceItIsDeleted) {
   EXPECT_FALSE(pilot.log.has("asked for 1 tag ")) << pilot.log.all();
 }
 
+/// Also where several wait and are delivered one after the other.
+TEST_P(StandardLifetimes, WhatACallbackDecidesHoldsForTheNextOne) {
+  const auto three_updates = [&] {
+    let_wait(coast, pilot, [&] {
+      for (const char* const colour : {"red", "green", "blue"})
+        pilot.update(ship, "12345678", colour);
+    });
+  };
+  const auto count = [&] {
+    return coast.log.count("reflected 12345678 red tag ") +
+           coast.log.count("reflected 12345678 green tag ") +
+           coast.log.count("reflected 12345678 blue tag ");
+  };
+  three_updates();
+  coast.log.on_callback = [&] { coast->disableCallbacks(); };
+  coast->enableCallbacks();
+  for (std::size_t delivered = 1; delivered <= 3; ++delivered) {
+    EXPECT_TRUE(coast.until([&] { return count() == delivered; })) << coast.log.all();
+    coast->evokeMultipleCallbacks(0.01, 0.05);
+    EXPECT_EQ(count(), delivered);
+    coast->enableCallbacks();
+  }
+  coast.log.on_callback = [] {};
+  three_updates();
+  coast.log.on_callback = [&] { coast->localDeleteObjectInstance(ship); };
+  coast->enableCallbacks();
+  EXPECT_TRUE(coast.until([&] { return count() == 4; }));
+  coast.log.on_callback = [] {};
+  coast->registerFederationSynchronizationPoint(L"later", {});
+  EXPECT_TRUE(coast.hears("registered later"));
+  EXPECT_EQ(count(), 4u);
+}
+
 TEST_P(StandardLifetimes, ADeletionInTimeIsForgottenAtOnceAndBackIfItIsRetracted) {
   EXPECT_FALSE(pilot->deleteObjectInstance(ship, {}, HLAfloat64Time(1.0)).isValid());
   EXPECT_THROW(pilot->getKnownObjectClassHandle(ship), ObjectInstanceNotKnown);
