@@ -309,7 +309,7 @@ void Federate::send_soon(Lock& lock) {
   if (connection_->core().outgoing().size() >= send_from) return send_now(lock);
   if (sending_.is_due || connection_->core().outgoing().empty()) return;
   // Bytes by themselves go at once, without another thread; a stream of them goes by parts.
-  if (std::chrono::steady_clock::now() >= sending_.at + send_gap) return send_now(lock);
+  if (std::chrono::steady_clock::now() >= sending_.at + stream_gap) return send_now(lock);
   sending_.is_due = true;
   wake();
 }

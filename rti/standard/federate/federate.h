@@ -72,9 +72,9 @@ class Federate : public std::enable_shared_from_this<Federate> {
   void enable_callbacks(bool is_enabled);
 
  private:
-  /// What is sent within so long goes together: a write and the receiver's waking cost more than
-  /// ten updates.
-  static constexpr std::chrono::microseconds send_gap{100};
+  /// A write and the receiver's waking cost more than ten updates: what follows the last write so
+  /// closely is the stream of a federate that computes, and goes by parts; answers come later.
+  static constexpr std::chrono::microseconds stream_gap{20}, send_gap{100};
   using Lock = std::unique_lock<std::mutex>;
   /// Holds a flag that one thread has at a time; the others wait for it.
   class Turn;
