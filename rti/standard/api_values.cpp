@@ -1,4 +1,5 @@
 // Values, ranges and records of the standard's C++ API.
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <utility>
@@ -19,9 +20,18 @@ class VariableLengthDataImplementation {
   size_t size() const { return size_; }
   void copy(const void* data, size_t size) {
     assert(data != nullptr || size == 0);
-    char* const bytes = size == 0 ? nullptr : new char[size];
-    if (size != 0) std::memcpy(bytes, data, size);
-    hold(bytes, size, delete_array);
+    if (size > sizeof near_) {
+      char* const bytes = new char[size];
+      std::memcpy(bytes, data, size);
+      return hold(bytes, size, delete_array);
+    }
+    std::array<char, near_max> bytes;
+    if (size != 0) std::memcpy(bytes.data(), data, size);  // which may be its own
+    release();
+    if (size != 0) std::memcpy(near_.data(), bytes.data(), size);
+    data_ = size == 0 ? nullptr : near_.data();
+    size_ = size;
+    release_by_ = nullptr;
   }
   void hold(void* data, size_t size, VariableLengthDataDeleteFunction release_by) {
     release();
@@ -36,8 +46,12 @@ class VariableLengthDataImplementation {
     if (release_by_ != nullptr && data_ != nullptr) release_by_(data_);
   }
 
+  /// Values up to this size take no memory of their own.
+  static constexpr std::size_t near_max = 40;
+
   void* data_ = nullptr;
   size_t size_ = 0;
+  std::array<char, near_max> near_;
   VariableLengthDataDeleteFunction release_by_ = nullptr;  ///< null: the bytes are the caller's
 };
 

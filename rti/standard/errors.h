@@ -1,10 +1,14 @@
 // Rink's errors as the standard's exceptions.
 #pragma once
 
+#include <exception>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "rti/hla_error.h"
 #include "rti/standard/standard_headers.h"
+#include "rti/standard/wide_text.h"
 
 namespace rink::standard {
 
@@ -22,7 +26,24 @@ decltype(auto) translated(const Call& call) {
     return call();
   } catch (const rti::RtiException& error) {
     throw_standard(error.error(), error.what());
+  } catch (const std::exception& error) {
+    throw_standard("RTIinternalError", error.what());
   }
+}
+
+/// What `call` throws, of any type; nothing if it returns.
+template <class Call>
+std::optional<std::string> fault_of(const Call& call) {
+  try {
+    call();
+  } catch (const rti1516e::Exception& exception) {
+    return to_utf8(exception.what());
+  } catch (const std::exception& exception) {
+    return exception.what();
+  } catch (...) {
+    return "what is no exception";
+  }
+  return std::nullopt;
 }
 
 }  // namespace rink::standard

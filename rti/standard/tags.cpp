@@ -62,6 +62,11 @@ ReceivedTag read_tag(const rti::Stamp& stamp) {
   return {rti1516e::VariableLengthData(bytes.data(), size), (head & tag_has_time) != 0};
 }
 
+bool tag_gives_time(const rti::Stamp& stamp) {
+  constexpr std::uint64_t both = std::uint64_t{tag_mark | tag_has_time} << 56;
+  return (stamp.tag & both) == both;
+}
+
 rti::Bytes bytes_of(rti1516e::VariableLengthData const& data) {
   return {static_cast<const std::byte*>(data.data()), data.size()};
 }

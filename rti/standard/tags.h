@@ -30,6 +30,9 @@ struct ReceivedTag {
 /// Tags of federates that use Rink's own API are their 8 bytes, the most significant first.
 ReceivedTag read_tag(const rti::Stamp& stamp);
 
+/// The sender gave a time. Of federates that use Rink's own API, false.
+bool tag_gives_time(const rti::Stamp& stamp);
+
 /// Tags that the core carries as they are.
 rti::Bytes bytes_of(rti1516e::VariableLengthData const& data);
 rti1516e::VariableLengthData data_of(rti::Bytes bytes);

@@ -15,7 +15,8 @@ class Times {
  public:
   /// "HLAfloat64Time", "HLAinteger64Time", or empty for the former. Throws
   /// CouldNotCreateLogicalTimeFactory.
-  explicit Times(const std::wstring& implementation = {});
+  explicit Times(const std::wstring& implementation);
+  Times() = default;  ///< HLAfloat64Time
 
   bool is_integer() const { return is_integer_; }
   std::wstring name() const;
@@ -31,7 +32,7 @@ class Times {
   void assign(rti1516e::LogicalTimeInterval& interval, double value) const;
 
  private:
-  bool is_integer_;
+  bool is_integer_ = false;
 };
 
 }  // namespace rink::standard

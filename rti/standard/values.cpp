@@ -103,10 +103,11 @@ void get_in_order(ReceivedMessage& message, Bytes bytes, const rti::InteractionC
 
 }  // namespace
 
-Update encode_update(const rti::Fom& fom, rti::ObjectClassHandle object_class,
-                     const rti1516e::AttributeHandleValueMap& values) {
+void encode_update(const rti::Fom& fom, rti::ObjectClassHandle object_class,
+                   const rti1516e::AttributeHandleValueMap& values, Update& update) {
   const std::vector<rti::Attribute>& attributes = fom.at(object_class).attributes;
-  Update update;
+  update.attributes = {};
+  update.values.clear();
   for (const auto& [handle, value] : values) {
     const rti::AttributeHandle attribute = to_core(handle);
     if (attribute.value >= attributes.size())
@@ -115,7 +116,6 @@ Update encode_update(const rti::Fom& fom, rti::ObjectClassHandle object_class,
     update.attributes.insert(attribute);
     put_value(update.values, attributes[attribute.value], bytes_of(value));
   }
-  return update;
 }
 
 rti1516e::AttributeHandleValueMap decode_update(const rti::Fom& fom,
@@ -130,9 +130,9 @@ rti1516e::AttributeHandleValueMap decode_update(const rti::Fom& fom,
     [[maybe_unused]] const bool is_whole = get_value(values, all[each.value], value);
     assert(is_whole);  // the core delivers whole values only
     if (!wanted.contains(each)) return;
-    map.emplace_hint(
-        map.end(), to_standard(each),
-        is_management ? management_to_standard(all[each.value].data_type, value) : data_of(value));
+    rti1516e::VariableLengthData& data = map[to_standard(each)];
+    if (is_management) data = management_to_standard(all[each.value].data_type, value);
+    else data.setData(value.data(), value.size());
   });
   return map;
 }

@@ -18,10 +18,10 @@ struct Update {
   rti::AttributeSet attributes;
   std::vector<std::byte> values;
 };
-/// Throws AttributeNotDefined, and RTIinternalError for a value that is not of the size that the
-/// model gives its data type.
-Update encode_update(const rti::Fom& fom, rti::ObjectClassHandle object_class,
-                     const rti1516e::AttributeHandleValueMap& values);
+/// Into `update`, whose memory it uses again. Throws AttributeNotDefined, and RTIinternalError for
+/// a value that is not of the size that the model gives its data type.
+void encode_update(const rti::Fom& fom, rti::ObjectClassHandle object_class,
+                   const rti1516e::AttributeHandleValueMap& values, Update& update);
 /// The values of `wanted` among those of `attributes`.
 rti1516e::AttributeHandleValueMap decode_update(const rti::Fom& fom,
                                                 rti::ObjectClassHandle object_class,

@@ -108,7 +108,7 @@ class HLAopaqueDataImplementation {
   size_t count() const { return external == nullptr ? own.size() : size; }
   void set(const Octet* octets, size_t octet_count) {
     if (external == nullptr) {
-      own.assign(octets, octets + octet_count);
+      own = std::vector<Octet>(octets, octets + octet_count);  // they may be its own
       return;
     }
     if (octet_count > room)

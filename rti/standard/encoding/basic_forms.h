@@ -48,10 +48,10 @@ struct BooleanForm {
 struct UnicodeCharForm {
   static constexpr unsigned boundary = 2;
   static void write(Octets& buffer, wchar_t value) {
-    const std::u16string units = to_utf16(std::wstring(1, value));
-    if (units.size() != 1)
+    // Half of a surrogate pair is a code unit too.
+    if (static_cast<std::uint32_t>(value) > 0xffff)
       throw rti1516e::EncoderException(L"HLAunicodeChar holds one UTF-16 code unit only");
-    put_number<std::endian::big>(buffer, units[0]);
+    put_number<std::endian::big>(buffer, static_cast<char16_t>(value));
   }
   static size_t read(const Octets& buffer, size_t index, wchar_t& value) {
     value = static_cast<wchar_t>(get_number<std::endian::big, char16_t>(buffer, index));

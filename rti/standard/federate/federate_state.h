@@ -1,16 +1,19 @@
 // What a federate of the standard's API has beside its core; all of it is used under one mutex.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "rti/ambassador.h"
 #include "rti/standard/federate/declarations.h"
 #include "rti/standard/federate/deliveries.h"
 #include "rti/standard/times.h"
+#include "rti/standard/values.h"
 
 namespace rink::standard {
 
@@ -18,6 +21,14 @@ namespace rink::standard {
 struct KnownObject {
   rti::ObjectClassHandle object_class;  ///< as the federate knows it
   std::string name;
+  rti::ObjectClassHandle registered;  ///< as its owner has registered it
+};
+
+/// An object that the federate deletes at the time of the handle.
+struct TimedDeletion {
+  rti::RetractionHandle handle;
+  rti::ObjectHandle object;
+  KnownObject known;
 };
 
 /// Time as the federate has been told it: the core may be a few callbacks ahead.
@@ -40,17 +51,31 @@ struct Answers {
 };
 
 struct FederateState {
-  explicit FederateState(rti1516e::FederateAmbassador& user) : deliveries(user) {}
+  /// As it is at a new connection.
+  void begin(rti1516e::FederateAmbassador& user);
+  /// Forgets an object that the federate has deleted, and what of it waits.
+  void forget(rti::ObjectHandle object) {
+    objects.erase(object);
+    deliveries.drop(object);
+  }
+  /// The same for a deletion at `handle.time`, until `retract`.
+  void forget(rti::ObjectHandle object, const rti::RetractionHandle& handle);
+  void retract(const rti::RetractionHandle& handle);
+  /// Forgets an execution.
+  void leave();
 
-  Deliveries deliveries;
+  Deliveries deliveries{};
   Times times{};
   ToldTime time{};
   Declarations declarations{};
   std::unordered_map<rti::ObjectHandle, KnownObject> objects{};
+  std::vector<TimedDeletion> deletions{};  ///< that may still be retracted
   std::set<std::string> reserved_names{};
   rti::ResignAction resign_directive = rti::ResignAction::cancel_then_delete_then_divest;
   Answers answers{};
+  Update sent{};                              ///< the last update, whose memory the next one uses
   rti::Ambassador* core = nullptr;            ///< null while there is no connection
+  std::shared_ptr<const rti::Fom> model{};    ///< the core's
   std::optional<std::string> lost_because{};  ///< the connection has ended by itself
 };
 

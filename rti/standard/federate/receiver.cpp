@@ -113,16 +113,22 @@ void Receiver::turn_interactions_off(rti::InteractionClassHandle interaction_cla
 
 void Receiver::turn_updates_on_for_object_instance(rti::ObjectHandle object,
                                                    rti::AttributeSet attributes) {
-  deliver([](User& user, const auto& handle,
-             const auto& set) { user.turnUpdatesOnForObjectInstance(handle, set); },
-          to_standard(object), to_standard(attributes));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set) {
+        user.turnUpdatesOnForObjectInstance(handle, set);
+      },
+      to_standard(object), to_standard(attributes));
 }
 
 void Receiver::turn_updates_off_for_object_instance(rti::ObjectHandle object,
                                                     rti::AttributeSet attributes) {
-  deliver([](User& user, const auto& handle,
-             const auto& set) { user.turnUpdatesOffForObjectInstance(handle, set); },
-          to_standard(object), to_standard(attributes));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set) {
+        user.turnUpdatesOffForObjectInstance(handle, set);
+      },
+      to_standard(object), to_standard(attributes));
 }
 
 void Receiver::object_instance_name_reservation_succeeded(std::string_view name) {

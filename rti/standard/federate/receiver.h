@@ -111,14 +111,17 @@ class Receiver final : public rti::FederateAmbassador {
   /// Copies its arguments; `call(user, arguments...)` follows when the federate takes callbacks.
   template <class Call, class... Arguments>
   void deliver(Call call, Arguments... arguments);
+  /// The same, unless the federate deletes the object before.
+  template <class Call, class... Arguments>
+  void deliver_of(rti::ObjectHandle object, Call call, Arguments... arguments);
   const KnownObject* knows(rti::ObjectHandle object);
-  struct Reflection;
   struct Reception;
-  bool reads(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
-             Reflection& reflection);
+  void take(WaitingUpdate& update, rti::Bytes values);
   bool reads(rti::InteractionClassHandle sent, rti::Bytes parameters, const rti::Stamp& stamp,
              Reception& reception) const;
-  void forget(rti::ObjectHandle object);
+  /// Delivers a removal, after which the federate knows the object no longer.
+  template <class Call>
+  void remove(rti::ObjectHandle object, Call call);
 
   FederateState& state_;
   std::mutex& mutex_;
@@ -126,10 +129,16 @@ class Receiver final : public rti::FederateAmbassador {
 
 template <class Call, class... Arguments>
 void Receiver::deliver(Call call, Arguments... arguments) {
+  deliver_of({}, std::move(call), std::move(arguments)...);
+}
+
+template <class Call, class... Arguments>
+void Receiver::deliver_of(rti::ObjectHandle object, Call call, Arguments... arguments) {
   state_.deliveries.put(
       [call, copies = std::tuple(std::move(arguments)...)](rti1516e::FederateAmbassador& user) {
         std::apply([&](const Arguments&... each) { call(user, each...); }, copies);
-      });
+      },
+      {.object = object});
 }
 
 }  // namespace rink::standard

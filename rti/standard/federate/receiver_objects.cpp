@@ -1,4 +1,5 @@
 // Callbacks of object and ownership management.
+#include <memory>
 #include <string>
 
 #include "rti/standard/federate/receiver.h"
@@ -23,13 +24,6 @@ rti1516e::OrderType received_order(const rti::TimedStamp& timed) {
 
 }  // namespace
 
-/// What of an update the federate has subscribed to.
-struct Receiver::Reflection {
-  rti1516e::ObjectInstanceHandle object;
-  rti1516e::AttributeHandleValueMap values;
-  rti1516e::TransportationType type;
-};
-
 /// An interaction as of the class that the federate knows it by.
 struct Receiver::Reception {
   rti1516e::InteractionClassHandle interaction_class;
@@ -52,21 +46,37 @@ const KnownObject* Receiver::knows(rti::ObjectHandle object) {
   return late == state_.objects.end() ? nullptr : &late->second;
 }
 
-bool Receiver::reads(rti::ObjectHandle object, rti::AttributeSet attributes, rti::Bytes values,
-                     Reflection& reflection) {
-  const KnownObject* const known = knows(object);
-  if (known == nullptr) return false;
-  const rti::AttributeSet wanted = state_.declarations.subscribed(known->object_class);
-  const rti::ObjectClassHandle registered = state_.core->get_known_object_class_handle(object);
-  reflection.object = to_standard(object);
-  reflection.values = decode_update(fom(), registered, attributes, values, wanted);
-  bool is_reliable = false;
-  (attributes & wanted).for_each([&](rti::AttributeHandle each) {
-    is_reliable = is_reliable || fom().at(registered).attributes[each.value].transportation ==
-                                     rti::Transportation::reliable;
+void Receiver::take(WaitingUpdate& update, rti::Bytes values) {
+  const KnownObject* const known = knows(update.object);
+  if (known == nullptr) return;
+  update.registered = known->registered;
+  update.wanted = update.attributes & state_.declarations.subscribed(known->object_class);
+  if (update.wanted.is_empty()) return;
+  const std::vector<rti::Attribute>& all = fom().at(update.registered).attributes;
+  update.wanted.for_each([&](rti::AttributeHandle each) {
+    update.is_reliable =
+        update.is_reliable || all[each.value].transportation == rti::Transportation::reliable;
   });
-  reflection.type = is_reliable ? rti1516e::RELIABLE : rti1516e::BEST_EFFORT;
-  return !reflection.values.empty();
+  update.times = state_.times;
+  state_.deliveries.put(update, values, state_.model);
+}
+
+void deliver_update(User& user, const rti::Fom& fom, const WaitingUpdate& update,
+                    rti::Bytes values) {
+  const auto object = to_standard(update.object);
+  const auto map = decode_update(fom, update.registered, update.attributes, values, update.wanted);
+  const rti1516e::VariableLengthData tag = read_tag(update.timed.stamp).tag;
+  const auto type = update.is_reliable ? rti1516e::RELIABLE : rti1516e::BEST_EFFORT;
+  const rti1516e::SupplementalReflectInfo nothing_more;
+  if (update.kind == WaitingUpdate::Kind::plain)
+    return user.reflectAttributeValues(object, map, tag, rti1516e::RECEIVE, type, nothing_more);
+  const auto time = update.times.time(update.timed.stamp.time);
+  if (update.kind == WaitingUpdate::Kind::with_time)
+    return user.reflectAttributeValues(object, map, tag, rti1516e::RECEIVE, type, *time,
+                                       rti1516e::RECEIVE, nothing_more);
+  user.reflectAttributeValues(object, map, tag, rti1516e::TIMESTAMP, type, *time,
+                              received_order(update.timed), to_standard(update.timed.handle),
+                              nothing_more);
 }
 
 bool Receiver::reads(rti::InteractionClassHandle sent, rti::Bytes parameters,
@@ -84,48 +94,29 @@ void Receiver::discover_object_instance(rti::ObjectHandle object,
                                         std::string_view name) {
   const rti::ObjectClassHandle known = state_.declarations.known_class(fom(), object_class);
   if (!known) return;
-  state_.objects[object] = {known, std::string(name)};
-  deliver([](User& user, const auto& handle, const auto& of_class,
-             const std::wstring& wide) { user.discoverObjectInstance(handle, of_class, wide); },
-          to_standard(object), to_standard(known), to_wide(name));
+  state_.objects[object] = {known, std::string(name), object_class};
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& of_class, const std::wstring& wide) {
+        user.discoverObjectInstance(handle, of_class, wide);
+      },
+      to_standard(object), to_standard(known), to_wide(name));
 }
 
 void Receiver::reflect_attribute_values(rti::ObjectHandle object, rti::AttributeSet attributes,
                                         rti::Bytes values, const rti::Stamp& stamp) {
-  Reflection reflection;
-  if (!reads(object, attributes, values, reflection)) return;
-  const ReceivedTag tag = read_tag(stamp);
-  if (!tag.has_time) {
-    state_.deliveries.put(
-        [reflection = std::move(reflection), tag = tag.tag](User& user) {
-          user.reflectAttributeValues(reflection.object, reflection.values, tag, rti1516e::RECEIVE,
-                                      reflection.type, rti1516e::SupplementalReflectInfo());
-        },
-        values.size());
-    return;
-  }
-  state_.deliveries.put(
-      [this, reflection = std::move(reflection), tag = tag.tag, time = stamp.time](User& user) {
-        user.reflectAttributeValues(reflection.object, reflection.values, tag, rti1516e::RECEIVE,
-                                    reflection.type, *state_.times.time(time), rti1516e::RECEIVE,
-                                    rti1516e::SupplementalReflectInfo());
-      },
-      values.size());
+  WaitingUpdate update{.object = object, .attributes = attributes};
+  update.timed.stamp = stamp;
+  if (tag_gives_time(stamp)) update.kind = WaitingUpdate::Kind::with_time;
+  take(update, values);
 }
 
 void Receiver::reflect_attribute_values_with_time(rti::ObjectHandle object,
                                                   rti::AttributeSet attributes, rti::Bytes values,
                                                   const rti::TimedStamp& timed) {
-  Reflection reflection;
-  if (!reads(object, attributes, values, reflection)) return;
-  state_.deliveries.put(
-      [this, reflection = std::move(reflection), timed](User& user) {
-        user.reflectAttributeValues(reflection.object, reflection.values, read_tag(timed.stamp).tag,
-                                    rti1516e::TIMESTAMP, reflection.type,
-                                    *state_.times.time(timed.stamp.time), received_order(timed),
-                                    to_standard(timed.handle), rti1516e::SupplementalReflectInfo());
-      },
-      values.size(), timed.handle);
+  WaitingUpdate update{.object = object, .attributes = attributes, .timed = timed};
+  update.kind = WaitingUpdate::Kind::in_order;
+  take(update, values);
 }
 
 void Receiver::receive_interaction(rti::InteractionClassHandle interaction_class,
@@ -135,17 +126,18 @@ void Receiver::receive_interaction(rti::InteractionClassHandle interaction_class
   if (!reads(interaction_class, parameters, stamp, reception)) return;
   const rti1516e::SupplementalReceiveInfo info(to_standard(sender));
   state_.deliveries.put(
-      [this, reception = std::move(reception), info, time = stamp.time](User& user) {
+      [times = state_.times, reception = std::move(reception), info,
+       time = stamp.time](User& user) {
         const ReceivedMessage& message = reception.message;
         if (!message.has_time)
           user.receiveInteraction(reception.interaction_class, message.values, message.tag,
                                   rti1516e::RECEIVE, reception.type, info);
         else
           user.receiveInteraction(reception.interaction_class, message.values, message.tag,
-                                  rti1516e::RECEIVE, reception.type, *state_.times.time(time),
+                                  rti1516e::RECEIVE, reception.type, *times.time(time),
                                   rti1516e::RECEIVE, info);
       },
-      parameters.size());
+      {.size = parameters.size()});
 }
 
 void Receiver::receive_interaction_with_time(rti::InteractionClassHandle interaction_class,
@@ -155,48 +147,53 @@ void Receiver::receive_interaction_with_time(rti::InteractionClassHandle interac
   if (!reads(interaction_class, parameters, timed.stamp, reception)) return;
   const rti1516e::SupplementalReceiveInfo info(to_standard(sender));
   state_.deliveries.put(
-      [this, reception = std::move(reception), info, timed](User& user) {
+      [times = state_.times, reception = std::move(reception), info, timed](User& user) {
         user.receiveInteraction(reception.interaction_class, reception.message.values,
                                 reception.message.tag, rti1516e::TIMESTAMP, reception.type,
-                                *state_.times.time(timed.stamp.time), received_order(timed),
+                                *times.time(timed.stamp.time), received_order(timed),
                                 to_standard(timed.handle), info);
       },
-      parameters.size(), timed.handle);
+      {.size = parameters.size(), .handle = timed.handle});
 }
 
-/// Once the federate has been told.
-void Receiver::forget(rti::ObjectHandle object) {
-  const std::lock_guard lock(mutex_);
-  state_.objects.erase(object);
+/// The core has removed the object: a retraction does not take the removal back.
+template <class Call>
+void Receiver::remove(rti::ObjectHandle object, Call call) {
+  if (!state_.objects.contains(object)) return;
+  state_.deliveries.put(
+      [this, object, call](User& user) {
+        const auto forget = [&](const void*) {
+          const std::lock_guard lock(mutex_);
+          state_.objects.erase(object);
+        };
+        // Also if the callback throws.
+        const std::unique_ptr<const void, decltype(forget)> afterwards(this, forget);
+        call(user);
+      },
+      {.object = object});
 }
 
 void Receiver::remove_object_instance(rti::ObjectHandle object) {
-  if (!state_.objects.contains(object)) return;
-  state_.deliveries.put([this, object](User& user) {
+  remove(object, [object](User& user) {
     user.removeObjectInstance(to_standard(object), rti1516e::VariableLengthData(),
                               rti1516e::RECEIVE, rti1516e::SupplementalRemoveInfo());
-    forget(object);
   });
 }
 
 void Receiver::remove_object_instance_with_time(rti::ObjectHandle object,
                                                 const rti::TimedStamp& timed) {
-  if (!state_.objects.contains(object)) return;
-  state_.deliveries.put(
-      [this, object, timed](User& user) {
-        user.removeObjectInstance(to_standard(object), read_tag(timed.stamp).tag,
-                                  rti1516e::TIMESTAMP, *state_.times.time(timed.stamp.time),
-                                  received_order(timed), to_standard(timed.handle),
-                                  rti1516e::SupplementalRemoveInfo());
-        forget(object);
-      },
-      0, timed.handle);
+  remove(object, [times = state_.times, object, timed](User& user) {
+    user.removeObjectInstance(to_standard(object), read_tag(timed.stamp).tag, rti1516e::TIMESTAMP,
+                              *times.time(timed.stamp.time), received_order(timed),
+                              to_standard(timed.handle), rti1516e::SupplementalRemoveInfo());
+  });
 }
 
 void Receiver::attributes_in_scope(rti::ObjectHandle object) {
   const KnownObject* const known = knows(object);
   if (known == nullptr) return;
-  deliver(
+  deliver_of(
+      object,
       [](User& user, const auto& handle, const auto& set) { user.attributesInScope(handle, set); },
       to_standard(object), to_standard(state_.declarations.subscribed(known->object_class)));
 }
@@ -204,32 +201,44 @@ void Receiver::attributes_in_scope(rti::ObjectHandle object) {
 void Receiver::attributes_out_of_scope(rti::ObjectHandle object) {
   const KnownObject* const known = knows(object);
   if (known == nullptr) return;
-  deliver([](User& user, const auto& handle,
-             const auto& set) { user.attributesOutOfScope(handle, set); },
-          to_standard(object), to_standard(state_.declarations.subscribed(known->object_class)));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set) {
+        user.attributesOutOfScope(handle, set);
+      },
+      to_standard(object), to_standard(state_.declarations.subscribed(known->object_class)));
 }
 
 void Receiver::provide_attribute_value_update(rti::ObjectHandle object,
                                               rti::AttributeSet attributes, rti::Bytes tag) {
-  deliver([](User& user, const auto& handle, const auto& set,
-             const auto& data) { user.provideAttributeValueUpdate(handle, set, data); },
-          to_standard(object), to_standard(attributes), data_of(tag));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set, const auto& data) {
+        user.provideAttributeValueUpdate(handle, set, data);
+      },
+      to_standard(object), to_standard(attributes), data_of(tag));
 }
 
 void Receiver::confirm_attribute_transportation_type_change(rti::ObjectHandle object,
                                                             rti::AttributeSet attributes,
                                                             rti::Transportation transportation) {
-  deliver([](User& user, const auto& handle, const auto& set,
-             auto type) { user.confirmAttributeTransportationTypeChange(handle, set, type); },
-          to_standard(object), to_standard(attributes), type_of(transportation));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set, auto type) {
+        user.confirmAttributeTransportationTypeChange(handle, set, type);
+      },
+      to_standard(object), to_standard(attributes), type_of(transportation));
 }
 
 void Receiver::report_attribute_transportation_type(rti::ObjectHandle object,
                                                     rti::AttributeHandle attribute,
                                                     rti::Transportation transportation) {
-  deliver([](User& user, const auto& handle, const auto& of_attribute,
-             auto type) { user.reportAttributeTransportationType(handle, of_attribute, type); },
-          to_standard(object), to_standard(attribute), type_of(transportation));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& of_attribute, auto type) {
+        user.reportAttributeTransportationType(handle, of_attribute, type);
+      },
+      to_standard(object), to_standard(attribute), type_of(transportation));
 }
 
 void Receiver::confirm_interaction_transportation_type_change(
@@ -250,22 +259,29 @@ void Receiver::report_interaction_transportation_type(rti::FederateHandle federa
 void Receiver::request_attribute_ownership_assumption(rti::ObjectHandle object,
                                                       rti::AttributeSet attributes,
                                                       rti::Bytes tag) {
-  deliver([](User& user, const auto& handle, const auto& set,
-             const auto& data) { user.requestAttributeOwnershipAssumption(handle, set, data); },
-          to_standard(object), to_standard(attributes), data_of(tag));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set, const auto& data) {
+        user.requestAttributeOwnershipAssumption(handle, set, data);
+      },
+      to_standard(object), to_standard(attributes), data_of(tag));
 }
 
 void Receiver::request_divestiture_confirmation(rti::ObjectHandle object,
                                                 rti::AttributeSet attributes) {
-  deliver([](User& user, const auto& handle,
-             const auto& set) { user.requestDivestitureConfirmation(handle, set); },
-          to_standard(object), to_standard(attributes));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set) {
+        user.requestDivestitureConfirmation(handle, set);
+      },
+      to_standard(object), to_standard(attributes));
 }
 
 void Receiver::attribute_ownership_acquisition_notification(rti::ObjectHandle object,
                                                             rti::AttributeSet attributes,
                                                             rti::Bytes tag) {
-  deliver(
+  deliver_of(
+      object,
       [](User& user, const auto& handle, const auto& set, const auto& data) {
         user.attributeOwnershipAcquisitionNotification(handle, set, data);
       },
@@ -274,21 +290,28 @@ void Receiver::attribute_ownership_acquisition_notification(rti::ObjectHandle ob
 
 void Receiver::attribute_ownership_unavailable(rti::ObjectHandle object,
                                                rti::AttributeSet attributes) {
-  deliver([](User& user, const auto& handle,
-             const auto& set) { user.attributeOwnershipUnavailable(handle, set); },
-          to_standard(object), to_standard(attributes));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set) {
+        user.attributeOwnershipUnavailable(handle, set);
+      },
+      to_standard(object), to_standard(attributes));
 }
 
 void Receiver::request_attribute_ownership_release(rti::ObjectHandle object,
                                                    rti::AttributeSet attributes, rti::Bytes tag) {
-  deliver([](User& user, const auto& handle, const auto& set,
-             const auto& data) { user.requestAttributeOwnershipRelease(handle, set, data); },
-          to_standard(object), to_standard(attributes), data_of(tag));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& set, const auto& data) {
+        user.requestAttributeOwnershipRelease(handle, set, data);
+      },
+      to_standard(object), to_standard(attributes), data_of(tag));
 }
 
 void Receiver::confirm_attribute_ownership_acquisition_cancellation(rti::ObjectHandle object,
                                                                     rti::AttributeSet attributes) {
-  deliver(
+  deliver_of(
+      object,
       [](User& user, const auto& handle, const auto& set) {
         user.confirmAttributeOwnershipAcquisitionCancellation(handle, set);
       },
@@ -297,7 +320,8 @@ void Receiver::confirm_attribute_ownership_acquisition_cancellation(rti::ObjectH
 
 void Receiver::inform_attribute_ownership(rti::ObjectHandle object, rti::AttributeHandle attribute,
                                           rti::FederateHandle owner) {
-  deliver(
+  deliver_of(
+      object,
       [](User& user, const auto& handle, const auto& of_attribute, const auto& federate) {
         user.informAttributeOwnership(handle, of_attribute, federate);
       },
@@ -305,9 +329,12 @@ void Receiver::inform_attribute_ownership(rti::ObjectHandle object, rti::Attribu
 }
 
 void Receiver::attribute_is_not_owned(rti::ObjectHandle object, rti::AttributeHandle attribute) {
-  deliver([](User& user, const auto& handle,
-             const auto& of_attribute) { user.attributeIsNotOwned(handle, of_attribute); },
-          to_standard(object), to_standard(attribute));
+  deliver_of(
+      object,
+      [](User& user, const auto& handle, const auto& of_attribute) {
+        user.attributeIsNotOwned(handle, of_attribute);
+      },
+      to_standard(object), to_standard(attribute));
 }
 
 void Receiver::attribute_ownership_divested(rti::ObjectHandle object,

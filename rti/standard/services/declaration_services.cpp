@@ -42,8 +42,8 @@ void check_attributes(const rti::Ambassador& core, rti::ObjectClassHandle object
 
 void DeclarationServices::publishObjectClassAttributes(
     rti1516e::ObjectClassHandle theClass, rti1516e::AttributeHandleSet const& attributeList) {
-  const rti::AttributeSet attributes = declarable(attributeList);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const rti::AttributeSet attributes = declarable(attributeList);
     const rti::ObjectClassHandle object_class = to_core(theClass);
     check_attributes(core, object_class, attributes);
     publish(core, state, object_class,
@@ -60,8 +60,8 @@ void DeclarationServices::unpublishObjectClass(rti1516e::ObjectClassHandle theCl
 
 void DeclarationServices::unpublishObjectClassAttributes(
     rti1516e::ObjectClassHandle theClass, rti1516e::AttributeHandleSet const& attributeList) {
-  const rti::AttributeSet attributes = declarable(attributeList);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const rti::AttributeSet attributes = declarable(attributeList);
     const rti::ObjectClassHandle object_class = to_core(theClass);
     check_attributes(core, object_class, attributes);
     publish(core, state, object_class,
@@ -85,9 +85,9 @@ void DeclarationServices::unpublishInteractionClass(
 void DeclarationServices::subscribeObjectClassAttributes(
     rti1516e::ObjectClassHandle theClass, rti1516e::AttributeHandleSet const& attributeList,
     bool active, std::wstring const& updateRateDesignator) {
-  check_update_rate(updateRateDesignator);
-  const rti::AttributeSet attributes = declarable(attributeList);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    check_update_rate(updateRateDesignator);
+    const rti::AttributeSet attributes = declarable(attributeList);
     const rti::ObjectClassHandle object_class = to_core(theClass);
     check_attributes(core, object_class, attributes);
     const ObjectClassDeclaration& now = state.declarations.objects[object_class];
@@ -109,8 +109,8 @@ void DeclarationServices::unsubscribeObjectClass(rti1516e::ObjectClassHandle the
 
 void DeclarationServices::unsubscribeObjectClassAttributes(
     rti1516e::ObjectClassHandle theClass, rti1516e::AttributeHandleSet const& attributeList) {
-  const rti::AttributeSet attributes = declarable(attributeList);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const rti::AttributeSet attributes = declarable(attributeList);
     const rti::ObjectClassHandle object_class = to_core(theClass);
     check_attributes(core, object_class, attributes);
     const ObjectClassDeclaration& now = state.declarations.objects[object_class];

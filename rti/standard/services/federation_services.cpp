@@ -16,30 +16,28 @@ std::vector<std::string> narrow(const std::vector<std::wstring>& names) {
   return all;
 }
 
-}  // namespace
-
-Federate& FederationServices::federate() const {
-  if (!federate_) throw rti1516e::NotConnected(L"connect first");
-  return *federate_;
+/// Throws CouldNotOpenMIM or ErrorReadingMIM, so that a fault of the MIM is not one of the model's.
+void check_mim(const std::string& file) {
+  try {
+    load_model({file});
+  } catch (const rti1516e::CouldNotOpenFDD& fault) {
+    throw rti1516e::CouldNotOpenMIM(fault.what());
+  } catch (const rti1516e::ErrorReadingFDD& fault) {
+    throw rti1516e::ErrorReadingMIM(fault.what());
+  } catch (const rti1516e::InconsistentFDD& fault) {
+    throw rti1516e::ErrorReadingMIM(fault.what());
+  }
 }
+
+}  // namespace
 
 void FederationServices::connect(rti1516e::FederateAmbassador& federateAmbassador,
                                  rti1516e::CallbackModel theCallbackModel,
                                  std::wstring const& localSettingsDesignator) {
-  if (federate_) throw rti1516e::AlreadyConnected(L"disconnect first");
-  if (theCallbackModel != rti1516e::HLA_IMMEDIATE && theCallbackModel != rti1516e::HLA_EVOKED)
-    throw rti1516e::UnsupportedCallbackModel(L"it is neither HLA_IMMEDIATE nor HLA_EVOKED");
-  federate_ = std::make_unique<Federate>(federateAmbassador, theCallbackModel,
-                                         read_settings(localSettingsDesignator));
+  federate().connect(federateAmbassador, theCallbackModel, localSettingsDesignator);
 }
 
-void FederationServices::disconnect() {
-  if (!federate_) return;
-  federate_->check_outside_callback();
-  if (federate_->is_joined())
-    throw rti1516e::FederateIsExecutionMember(L"resign from the federation execution first");
-  federate_.reset();
-}
+void FederationServices::disconnect() { federate().disconnect(); }
 
 void FederationServices::createFederationExecution(
     std::wstring const& federationExecutionName, std::wstring const& fomModule,
@@ -60,6 +58,7 @@ void FederationServices::createFederationExecutionWithMIM(
     std::wstring const& mimModule, std::wstring const& logicalTimeImplementationName) {
   if (mimModule == L"HLAstandardMIM")
     throw rti1516e::DesignatorIsHLAstandardMIM(L"it stands behind every model without being named");
+  check_mim(to_utf8(mimModule));
   std::vector<std::wstring> modules = fomModules;
   modules.push_back(mimModule);
   createFederationExecution(federationExecutionName, modules, logicalTimeImplementationName);
@@ -90,10 +89,10 @@ rti1516e::FederateHandle FederationServices::joinFederationExecution(
 }
 
 void FederationServices::resignFederationExecution(rti1516e::ResignAction resignAction) {
+  federate().check_outside_callback();
   if (resignAction < rti1516e::UNCONDITIONALLY_DIVEST_ATTRIBUTES ||
       resignAction > rti1516e::NO_ACTION)
     throw rti1516e::InvalidResignAction(L"there is no such action");
-  federate().check_outside_callback();
   federate().resign(static_cast<rti::ResignAction>(resignAction));
 }
 
@@ -107,8 +106,8 @@ void FederationServices::registerFederationSynchronizationPoint(
 void FederationServices::registerFederationSynchronizationPoint(
     std::wstring const& label, rti1516e::VariableLengthData const& theUserSuppliedTag,
     rti1516e::FederateHandleSet const& synchronizationSet) {
-  const std::vector<rti::FederateHandle> members = to_core(synchronizationSet);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const std::vector<rti::FederateHandle> members = to_core(synchronizationSet);
     core.register_synchronization_point(to_utf8(label), bytes_of(theUserSuppliedTag), members);
   });
 }

@@ -10,6 +10,7 @@ namespace rink::standard {
 
 class FederationServices : public rti1516e::RTIambassador {
  public:
+  ~FederationServices() override { federate_->close(); }
   void connect(rti1516e::FederateAmbassador& federateAmbassador,
                rti1516e::CallbackModel theCallbackModel,
                std::wstring const& localSettingsDesignator) override;
@@ -42,11 +43,10 @@ class FederationServices : public rti1516e::RTIambassador {
   void synchronizationPointAchieved(std::wstring const& label, bool successfully) override;
 
  protected:
-  /// Throws NotConnected.
-  Federate& federate() const;
+  Federate& federate() const { return *federate_; }
 
  private:
-  std::unique_ptr<Federate> federate_;
+  const std::shared_ptr<Federate> federate_ = std::make_shared<Federate>();
 };
 
 }  // namespace rink::standard

@@ -55,9 +55,9 @@ rti1516e::FederateHandle LookupServices::getFederateHandle(std::wstring const& t
 }
 
 std::wstring LookupServices::getFederateName(rti1516e::FederateHandle theHandle) {
-  if (!theHandle.isValid()) throw rti1516e::InvalidFederateHandle(L"the handle is empty");
   return looked_up<rti1516e::NameNotFound, rti1516e::FederateHandleNotKnown>(
       federate(), [&](rti::Ambassador& core, FederateState&) {
+        if (!theHandle.isValid()) throw rti1516e::InvalidFederateHandle(L"the handle is empty");
         return to_wide(core.get_federate_name(to_core(theHandle)));
       });
 }

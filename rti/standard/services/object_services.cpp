@@ -18,9 +18,11 @@ std::vector<std::string> narrow_names(const std::set<std::wstring>& names) {
   return all;
 }
 
-Update update_of(const rti::Ambassador& core, rti::ObjectHandle object,
-                 const rti1516e::AttributeHandleValueMap& values) {
-  return encode_update(core.fom(), core.get_known_object_class_handle(object), values);
+/// The same memory for each update.
+const Update& update_of(const rti::Ambassador& core, FederateState& state, rti::ObjectHandle object,
+                        const rti1516e::AttributeHandleValueMap& values) {
+  encode_update(core.fom(), core.get_known_object_class_handle(object), values, state.sent);
+  return state.sent;
 }
 
 }  // namespace
@@ -41,8 +43,8 @@ void ObjectServices::releaseObjectInstanceName(std::wstring const& theObjectInst
 
 void ObjectServices::reserveMultipleObjectInstanceName(
     std::set<std::wstring> const& theObjectInstanceNames) {
-  const std::vector<std::string> names = narrow_names(theObjectInstanceNames);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const std::vector<std::string> names = narrow_names(theObjectInstanceNames);
     core.reserve_multiple_object_instance_names(
         std::vector<std::string_view>(names.begin(), names.end()));
   });
@@ -50,8 +52,8 @@ void ObjectServices::reserveMultipleObjectInstanceName(
 
 void ObjectServices::releaseMultipleObjectInstanceName(
     std::set<std::wstring> const& theObjectInstanceNames) {
-  const std::vector<std::string> names = narrow_names(theObjectInstanceNames);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const std::vector<std::string> names = narrow_names(theObjectInstanceNames);
     core.release_multiple_object_instance_names(
         std::vector<std::string_view>(names.begin(), names.end()));
     for (const std::string& each : names) state.reserved_names.erase(each);
@@ -79,8 +81,8 @@ void ObjectServices::updateAttributeValues(
     rti1516e::ObjectInstanceHandle theObject,
     rti1516e::AttributeHandleValueMap const& theAttributeValues,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  federate().call([&](rti::Ambassador& core, FederateState&) {
-    const Update update = update_of(core, to_core(theObject), theAttributeValues);
+  federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const Update& update = update_of(core, state, to_core(theObject), theAttributeValues);
     if (update.attributes.is_empty()) return;
     core.update_attribute_values(to_core(theObject), update.attributes, update.values,
                                  tag_stamp(theUserSuppliedTag, {}));
@@ -92,7 +94,7 @@ rti1516e::MessageRetractionHandle ObjectServices::updateAttributeValues(
     rti1516e::AttributeHandleValueMap const& theAttributeValues,
     rti1516e::VariableLengthData const& theUserSuppliedTag, rti1516e::LogicalTime const& theTime) {
   return federate().call([&](rti::Ambassador& core, FederateState& state) {
-    const Update update = update_of(core, to_core(theObject), theAttributeValues);
+    const Update& update = update_of(core, state, to_core(theObject), theAttributeValues);
     const double time = state.times.number(theTime);
     const rti::Stamp stamp = tag_stamp(theUserSuppliedTag, time);
     if (update.attributes.is_empty()) return rti1516e::MessageRetractionHandle();
@@ -129,7 +131,7 @@ void ObjectServices::deleteObjectInstance(rti1516e::ObjectInstanceHandle theObje
                                           rti1516e::VariableLengthData const&) {
   federate().call([&](rti::Ambassador& core, FederateState& state) {
     core.delete_object_instance(to_core(theObject));
-    state.objects.erase(to_core(theObject));
+    state.forget(to_core(theObject));
   });
 }
 
@@ -139,23 +141,25 @@ rti1516e::MessageRetractionHandle ObjectServices::deleteObjectInstance(
   return federate().call([&](rti::Ambassador& core, FederateState& state) {
     const double time = state.times.number(theTime);
     const rti::Stamp stamp = tag_stamp(theUserSuppliedTag, time);
-    return to_standard(
-        core.delete_object_instance(to_core(theObject), rti::LogicalTime(time), stamp.tag));
+    const rti::RetractionHandle handle =
+        core.delete_object_instance(to_core(theObject), rti::LogicalTime(time), stamp.tag);
+    state.forget(to_core(theObject), handle);
+    return to_standard(handle);
   });
 }
 
 void ObjectServices::localDeleteObjectInstance(rti1516e::ObjectInstanceHandle theObject) {
   federate().call([&](rti::Ambassador& core, FederateState& state) {
     core.local_delete_object_instance(to_core(theObject));
-    state.objects.erase(to_core(theObject));
+    state.forget(to_core(theObject));
   });
 }
 
 void ObjectServices::requestAttributeValueUpdate(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.request_attribute_value_update(to_core(theObject), attributes,
                                         bytes_of(theUserSuppliedTag));
   });
@@ -164,8 +168,8 @@ void ObjectServices::requestAttributeValueUpdate(
 void ObjectServices::requestAttributeValueUpdate(
     rti1516e::ObjectClassHandle theClass, rti1516e::AttributeHandleSet const& theAttributes,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.request_attribute_value_update(to_core(theClass), attributes,
                                         bytes_of(theUserSuppliedTag));
   });
@@ -174,9 +178,9 @@ void ObjectServices::requestAttributeValueUpdate(
 void ObjectServices::requestAttributeTransportationTypeChange(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes,
     rti1516e::TransportationType theType) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
-  const rti::Transportation transportation = to_core(theType);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
+    const rti::Transportation transportation = to_core(theType);
     core.request_attribute_transportation_type_change(to_core(theObject), attributes,
                                                       transportation);
   });
@@ -191,8 +195,8 @@ void ObjectServices::queryAttributeTransportationType(rti1516e::ObjectInstanceHa
 
 void ObjectServices::requestInteractionTransportationTypeChange(
     rti1516e::InteractionClassHandle theClass, rti1516e::TransportationType theType) {
-  const rti::Transportation transportation = to_core(theType);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::Transportation transportation = to_core(theType);
     core.request_interaction_transportation_type_change(to_core(theClass), transportation);
   });
 }

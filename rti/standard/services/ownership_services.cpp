@@ -8,8 +8,8 @@ namespace rink::standard {
 
 void OwnershipServices::unconditionalAttributeOwnershipDivestiture(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.unconditional_attribute_ownership_divestiture(to_core(theObject), attributes);
   });
 }
@@ -17,8 +17,8 @@ void OwnershipServices::unconditionalAttributeOwnershipDivestiture(
 void OwnershipServices::negotiatedAttributeOwnershipDivestiture(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.negotiated_attribute_ownership_divestiture(to_core(theObject), attributes,
                                                     bytes_of(theUserSuppliedTag));
   });
@@ -27,8 +27,8 @@ void OwnershipServices::negotiatedAttributeOwnershipDivestiture(
 void OwnershipServices::confirmDivestiture(rti1516e::ObjectInstanceHandle theObject,
                                            rti1516e::AttributeHandleSet const& confirmedAttributes,
                                            rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  const rti::AttributeSet attributes = to_core(confirmedAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(confirmedAttributes);
     core.confirm_divestiture(to_core(theObject), attributes, bytes_of(theUserSuppliedTag));
   });
 }
@@ -36,8 +36,8 @@ void OwnershipServices::confirmDivestiture(rti1516e::ObjectInstanceHandle theObj
 void OwnershipServices::attributeOwnershipAcquisition(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& desiredAttributes,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  const rti::AttributeSet attributes = to_core(desiredAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(desiredAttributes);
     core.attribute_ownership_acquisition(to_core(theObject), attributes,
                                          bytes_of(theUserSuppliedTag));
   });
@@ -46,32 +46,32 @@ void OwnershipServices::attributeOwnershipAcquisition(
 void OwnershipServices::attributeOwnershipAcquisitionIfAvailable(
     rti1516e::ObjectInstanceHandle theObject,
     rti1516e::AttributeHandleSet const& desiredAttributes) {
-  const rti::AttributeSet attributes = to_core(desiredAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(desiredAttributes);
     core.attribute_ownership_acquisition_if_available(to_core(theObject), attributes);
   });
 }
 
 void OwnershipServices::attributeOwnershipReleaseDenied(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.attribute_ownership_release_denied(to_core(theObject), attributes);
   });
 }
 
 void OwnershipServices::cancelNegotiatedAttributeOwnershipDivestiture(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.cancel_negotiated_attribute_ownership_divestiture(to_core(theObject), attributes);
   });
 }
 
 void OwnershipServices::cancelAttributeOwnershipAcquisition(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
     core.cancel_attribute_ownership_acquisition(to_core(theObject), attributes);
   });
 }
@@ -80,10 +80,10 @@ void OwnershipServices::cancelAttributeOwnershipAcquisition(
 void OwnershipServices::attributeOwnershipDivestitureIfWanted(
     rti1516e::ObjectInstanceHandle theObject, rti1516e::AttributeHandleSet const& theAttributes,
     rti1516e::AttributeHandleSet& theDivestedAttributes) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
   rti::AttributeSet divested;
   federate().ask(
       [&](rti::Ambassador& core, FederateState& state) {
+        const rti::AttributeSet attributes = to_core(theAttributes);
         core.attribute_ownership_divestiture_if_wanted(to_core(theObject), attributes);
         state.answers.divestiture = {to_core(theObject), attributes, {}, {}};
       },

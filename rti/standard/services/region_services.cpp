@@ -11,8 +11,8 @@ using Pairs = rti1516e::AttributeHandleSetRegionHandleSetPairVector;
 
 rti1516e::RegionHandle RegionServices::createRegion(
     rti1516e::DimensionHandleSet const& theDimensions) {
-  const rti::DimensionSet dimensions = to_core(theDimensions);
   return federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::DimensionSet dimensions = to_core(theDimensions);
     const rti::RegionHandle region = core.create_region(dimensions);
     if (!region) throw rti1516e::RTIinternalError(L"the federate has too many regions");
     return to_standard(region);
@@ -21,9 +21,10 @@ rti1516e::RegionHandle RegionServices::createRegion(
 
 void RegionServices::commitRegionModifications(
     rti1516e::RegionHandleSet const& theRegionHandleSet) {
-  const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
-  federate().call(
-      [&](rti::Ambassador& core, FederateState&) { core.commit_region_modifications(regions); });
+  federate().call([&](rti::Ambassador& core, FederateState&) {
+    const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
+    core.commit_region_modifications(regions);
+  });
 }
 
 void RegionServices::deleteRegion(rti1516e::RegionHandle const& theRegion) {
@@ -34,8 +35,8 @@ void RegionServices::deleteRegion(rti1516e::RegionHandle const& theRegion) {
 rti1516e::ObjectInstanceHandle RegionServices::registerObjectInstanceWithRegions(
     rti1516e::ObjectClassHandle theClass,
     Pairs const& theAttributeHandleSetRegionHandleSetPairVector) {
-  const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
   return federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
     return registered(core, state, to_core(theClass),
                       core.register_object_instance_with_regions(to_core(theClass), pairs));
   });
@@ -45,8 +46,8 @@ rti1516e::ObjectInstanceHandle RegionServices::registerObjectInstanceWithRegions
     rti1516e::ObjectClassHandle theClass,
     Pairs const& theAttributeHandleSetRegionHandleSetPairVector,
     std::wstring const& theObjectInstanceName) {
-  const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
   return federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
     const std::string name = reserved_name(state, theObjectInstanceName);
     return registered(core, state, to_core(theClass),
                       core.register_object_instance_with_regions(to_core(theClass), pairs, name));
@@ -56,8 +57,8 @@ rti1516e::ObjectInstanceHandle RegionServices::registerObjectInstanceWithRegions
 void RegionServices::associateRegionsForUpdates(
     rti1516e::ObjectInstanceHandle theObject,
     Pairs const& theAttributeHandleSetRegionHandleSetPairVector) {
-  const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
     core.associate_regions_for_updates(to_core(theObject), pairs);
   });
 }
@@ -65,8 +66,8 @@ void RegionServices::associateRegionsForUpdates(
 void RegionServices::unassociateRegionsForUpdates(
     rti1516e::ObjectInstanceHandle theObject,
     Pairs const& theAttributeHandleSetRegionHandleSetPairVector) {
-  const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
     core.unassociate_regions_for_updates(to_core(theObject), pairs);
   });
 }
@@ -75,9 +76,9 @@ void RegionServices::subscribeObjectClassAttributesWithRegions(
     rti1516e::ObjectClassHandle theClass,
     Pairs const& theAttributeHandleSetRegionHandleSetPairVector, bool active,
     std::wstring const& updateRateDesignator) {
-  check_update_rate(updateRateDesignator);
-  const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    check_update_rate(updateRateDesignator);
+    const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
     core.subscribe_object_class_attributes_with_regions(to_core(theClass), pairs, active);
     auto& regional = state.declarations.objects[to_core(theClass)].regional;
     for (const rti::AttributeRegions& pair : pairs)
@@ -89,8 +90,8 @@ void RegionServices::subscribeObjectClassAttributesWithRegions(
 void RegionServices::unsubscribeObjectClassAttributesWithRegions(
     rti1516e::ObjectClassHandle theClass,
     Pairs const& theAttributeHandleSetRegionHandleSetPairVector) {
-  const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const auto pairs = to_core(theAttributeHandleSetRegionHandleSetPairVector);
     core.unsubscribe_object_class_attributes_with_regions(to_core(theClass), pairs);
     auto& regional = state.declarations.objects[to_core(theClass)].regional;
     for (const rti::AttributeRegions& pair : pairs)
@@ -102,8 +103,8 @@ void RegionServices::unsubscribeObjectClassAttributesWithRegions(
 void RegionServices::subscribeInteractionClassWithRegions(
     rti1516e::InteractionClassHandle theClass, rti1516e::RegionHandleSet const& theRegionHandleSet,
     bool active) {
-  const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
     core.subscribe_interaction_class_with_regions(to_core(theClass), regions, active);
     state.declarations.interactions[to_core(theClass)].regions.insert(regions.begin(),
                                                                       regions.end());
@@ -113,8 +114,8 @@ void RegionServices::subscribeInteractionClassWithRegions(
 void RegionServices::unsubscribeInteractionClassWithRegions(
     rti1516e::InteractionClassHandle theClass,
     rti1516e::RegionHandleSet const& theRegionHandleSet) {
-  const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
     core.unsubscribe_interaction_class_with_regions(to_core(theClass), regions);
     for (const rti::RegionHandle region : regions)
       state.declarations.interactions[to_core(theClass)].regions.erase(region);
@@ -126,8 +127,8 @@ void RegionServices::sendInteractionWithRegions(
     rti1516e::ParameterHandleValueMap const& theParameterValues,
     rti1516e::RegionHandleSet const& theRegionHandleSet,
     rti1516e::VariableLengthData const& theUserSuppliedTag) {
-  const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
     const Message message =
         message_of(core, to_core(theInteraction), theParameterValues, theUserSuppliedTag, {});
     core.send_interaction_with_regions(to_core(theInteraction), message.parameters, regions,
@@ -141,8 +142,8 @@ rti1516e::MessageRetractionHandle RegionServices::sendInteractionWithRegions(
     rti1516e::ParameterHandleValueMap const& theParameterValues,
     rti1516e::RegionHandleSet const& theRegionHandleSet,
     rti1516e::VariableLengthData const& theUserSuppliedTag, rti1516e::LogicalTime const& theTime) {
-  const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
   return federate().call([&](rti::Ambassador& core, FederateState& state) {
+    const std::vector<rti::RegionHandle> regions = to_core(theRegionHandleSet);
     const Message message = message_of(core, to_core(theInteraction), theParameterValues,
                                        theUserSuppliedTag, state.times.number(theTime));
     core.send_interaction_with_regions(to_core(theInteraction), message.parameters, regions,
@@ -155,8 +156,8 @@ rti1516e::MessageRetractionHandle RegionServices::sendInteractionWithRegions(
 void RegionServices::requestAttributeValueUpdateWithRegions(rti1516e::ObjectClassHandle theClass,
                                                             Pairs const& theSet,
                                                             rti1516e::VariableLengthData const&) {
-  const auto pairs = to_core(theSet);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const auto pairs = to_core(theSet);
     core.request_attribute_value_update_with_regions(to_core(theClass), pairs);
   });
 }

@@ -27,7 +27,7 @@ inline rti1516e::ObjectInstanceHandle registered(const rti::Ambassador& core, Fe
   if (!object)
     throw rti1516e::RTIinternalError(
         L"the RTI has not given further object handles yet; register the object later");
-  state.objects[object] = {object_class, core.get_object_instance_name(object)};
+  state.objects[object] = {object_class, core.get_object_instance_name(object), object_class};
   return to_standard(object);
 }
 

@@ -6,10 +6,10 @@ namespace rink::standard {
 namespace {
 
 /// What a federate outside an execution gets is the standard's refusal all the same.
-[[noreturn]] void refuse_saving(Federate& federate, const std::wstring& service) {
-  if (!federate.is_joined())
-    throw rti1516e::FederateNotExecutionMember(L"join a federation execution first");
-  throw rti1516e::RTIinternalError(service + L": this RTI neither saves nor restores");
+void refuse_saving(Federate& federate, const std::wstring& service) {
+  federate.call([&](rti::Ambassador&, FederateState&) {
+    throw rti1516e::RTIinternalError(service + L": this RTI neither saves nor restores");
+  });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "rti/standard/services/support_services.h"
 
 #include "rti/standard/handles.h"
+#include "rti/standard/wide_text.h"
 
 namespace rink::standard {
 
@@ -12,19 +13,23 @@ rti1516e::ResignAction SupportServices::getAutomaticResignDirective() {
 }
 
 void SupportServices::setAutomaticResignDirective(rti1516e::ResignAction resignAction) {
-  if (resignAction < rti1516e::UNCONDITIONALLY_DIVEST_ATTRIBUTES ||
-      resignAction > rti1516e::NO_ACTION)
-    throw rti1516e::InvalidResignAction(L"there is no such action");
-  const auto action = static_cast<rti::ResignAction>(resignAction);
   federate().call([&](rti::Ambassador& core, FederateState& state) {
+    if (resignAction < rti1516e::UNCONDITIONALLY_DIVEST_ATTRIBUTES ||
+        resignAction > rti1516e::NO_ACTION)
+      throw rti1516e::InvalidResignAction(L"there is no such action");
+    const auto action = static_cast<rti::ResignAction>(resignAction);
     core.set_automatic_resign_directive(action);
     state.resign_directive = action;
   });
 }
 
 unsigned long SupportServices::normalizeFederateHandle(rti1516e::FederateHandle theFederateHandle) {
-  return federate().call([&](rti::Ambassador&, FederateState&) -> unsigned long {
-    if (!theFederateHandle.isValid()) throw rti1516e::InvalidFederateHandle(L"the handle is empty");
+  return federate().call([&](rti::Ambassador& core, FederateState&) -> unsigned long {
+    try {
+      core.get_federate_name(to_core(theFederateHandle));
+    } catch (const rti::RtiException& error) {
+      throw rti1516e::InvalidFederateHandle(to_wide(error.what()));
+    }
     return to_core(theFederateHandle).value;
   });
 }

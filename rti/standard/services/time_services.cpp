@@ -23,7 +23,7 @@ void check_not_enabling(const FederateState& state) {
 
 template <class Request>
 void advance(Federate& federate, const rti1516e::LogicalTime& time, const Request& request) {
-  federate.call([&](rti::Ambassador& core, FederateState& state) {
+  federate.call_at_once([&](rti::Ambassador& core, FederateState& state) {
     check_not_advancing(state);
     check_not_enabling(state);
     request(core, rti::LogicalTime(state.times.number(time)));
@@ -146,23 +146,26 @@ void TimeServices::queryLookahead(rti1516e::LogicalTimeInterval& interval) {
 }
 
 void TimeServices::retract(rti1516e::MessageRetractionHandle theHandle) {
-  federate().call([&](rti::Ambassador& core, FederateState&) { core.retract(to_core(theHandle)); });
+  federate().call([&](rti::Ambassador& core, FederateState& state) {
+    core.retract(to_core(theHandle));
+    state.retract(to_core(theHandle));
+  });
 }
 
 void TimeServices::changeAttributeOrderType(rti1516e::ObjectInstanceHandle theObject,
                                             rti1516e::AttributeHandleSet const& theAttributes,
                                             rti1516e::OrderType theType) {
-  const rti::AttributeSet attributes = to_core(theAttributes);
-  const rti::Order order = to_core<rti1516e::RTIinternalError>(theType);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::AttributeSet attributes = to_core(theAttributes);
+    const rti::Order order = to_core<rti1516e::RTIinternalError>(theType);
     core.change_attribute_order_type(to_core(theObject), attributes, order);
   });
 }
 
 void TimeServices::changeInteractionOrderType(rti1516e::InteractionClassHandle theClass,
                                               rti1516e::OrderType theType) {
-  const rti::Order order = to_core<rti1516e::RTIinternalError>(theType);
   federate().call([&](rti::Ambassador& core, FederateState&) {
+    const rti::Order order = to_core<rti1516e::RTIinternalError>(theType);
     core.change_interaction_order_type(to_core(theClass), order);
   });
 }

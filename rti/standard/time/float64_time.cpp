@@ -85,7 +85,7 @@ void HLAfloat64Time::decode(VariableLengthData const& encodedValue) {
 void HLAfloat64Time::decode(void* buffer, size_t bufferSize) {
   setTime(rink::standard::decode_time<double>(buffer, bufferSize));
 }
-std::wstring HLAfloat64Time::toString() const { return std::to_wstring(getTime()); }
+std::wstring HLAfloat64Time::toString() const { return rink::standard::shortest_text(getTime()); }
 std::wstring HLAfloat64Time::implementationName() const { return HLAfloat64TimeName; }
 double HLAfloat64Time::getTime() const { return _impl->value; }
 void HLAfloat64Time::setTime(double value) { _impl->value = value; }
@@ -152,7 +152,9 @@ void HLAfloat64Interval::decode(VariableLengthData const& encodedValue) {
 void HLAfloat64Interval::decode(void* buffer, size_t bufferSize) {
   setInterval(rink::standard::decode_time<double>(buffer, bufferSize));
 }
-std::wstring HLAfloat64Interval::toString() const { return std::to_wstring(getInterval()); }
+std::wstring HLAfloat64Interval::toString() const {
+  return rink::standard::shortest_text(getInterval());
+}
 std::wstring HLAfloat64Interval::implementationName() const { return L"HLAfloat64Interval"; }
 double HLAfloat64Interval::getInterval() const { return _impl->value; }
 void HLAfloat64Interval::setInterval(double value) { _impl->value = value; }

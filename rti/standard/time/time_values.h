@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -24,6 +25,13 @@ Number difference(Number value, Number subtrahend) {
   if (subtrahend > value)
     throw rti1516e::IllegalTimeArithmetic(L"the difference is earlier than the initial time");
   return value - subtrahend;
+}
+
+/// The shortest text that reads as this number alone.
+inline std::wstring shortest_text(double value) {
+  std::array<char, 32> text;
+  const std::to_chars_result end = std::to_chars(text.begin(), text.end(), value);
+  return {text.begin(), end.ptr};
 }
 
 /// Times and intervals are encoded as HLAfloat64BE and HLAinteger64BE.

@@ -136,6 +136,22 @@ TEST(StandardEncoding, ElementsFollowEachOtherInABuffer) {
   EXPECT_EQ(name.get(), "ab");
 }
 
+TEST(StandardEncoding, OpaqueDataMayBeSetToAPartOfItself) {
+  const std::string all = "a ship that is longer than its prow";
+  HLAopaqueData opaque(all.data(), all.size());
+  opaque.set(opaque.get() + 2, 4);
+  EXPECT_EQ(std::string(opaque.get(), opaque.dataLength()), "ship");
+}
+
+TEST(StandardEncoding, AUnicodeCharIsACodeUnitAlsoHalfOfAPair) {
+  for (const wchar_t unit : {L'x', wchar_t{0xd801}, wchar_t{0xdfff}, wchar_t{0xffff}}) {
+    HLAunicodeChar read;
+    read.decode(HLAunicodeChar(unit).encode());
+    EXPECT_EQ(read.get(), unit);
+  }
+  EXPECT_THROW(HLAunicodeChar(wchar_t{0x10000}).encode(), EncoderException);
+}
+
 TEST(StandardEncoding, OpaqueDataLiesInTheUsersBufferIfThatHasRoom) {
   Octet room[4] = {'a', 'b', 'c', 'd'};
   Octet* place = room;

@@ -42,6 +42,11 @@ class Harbour {
     if (thread_.joinable()) thread_.join();
   }
   std::wstring address() const { return L"127.0.0.1:" + std::to_wstring(port_); }
+  /// While it sleeps, it answers nobody.
+  void sleep(bool is_asleep) {
+    is_to_sleep_ = is_asleep;
+    while (is_asleep_ != is_asleep) std::this_thread::yield();
+  }
 
  private:
   static double now_s() {
@@ -50,6 +55,11 @@ class Harbour {
   }
   void serve() {
     while (!is_closing_) {
+      is_asleep_ = is_to_sleep_.load();
+      if (is_asleep_) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        continue;
+      }
       host_.poll(std::chrono::milliseconds(1));
       host_.advance_clock(now_s());
       host_.match();
@@ -64,7 +74,7 @@ class Harbour {
   rti::TcpTransport tcp_;
   rti::FederationHost host_;
   std::uint16_t port_ = 0;
-  std::atomic<bool> is_closing_ = false;
+  std::atomic<bool> is_closing_ = false, is_to_sleep_ = false, is_asleep_ = false;
   std::thread thread_;
 };
 
@@ -299,6 +309,13 @@ class Sailor {
     self = rti_->joinFederationExecution(name, L"sailor", L"port");
   }
   rti1516e::RTIambassador* operator->() { return rti_.get(); }
+  /// Destroys the ambassador.
+  void scuttle() { rti_.reset(); }
+  /// Returns once the RTI has answered, so that what it sent before waits for its turn.
+  void hear_the_rti() {
+    rti1516e::HLAfloat64Time galt;
+    for (int answer = 0; answer < 2; ++answer) rti_->queryGALT(galt);
+  }
 
   /// Takes callbacks until `is_so()`, for 5 s at most.
   template <class Condition>

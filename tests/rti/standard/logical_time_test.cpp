@@ -74,6 +74,16 @@ void check_that_epsilon_is_the_least_interval_above_zero() {
   EXPECT_FALSE(least.isZero());
   EXPECT_GT(least.getInterval(), 0);
 }
+TEST(LogicalTimeKinds, TextReadsAsTheSameNumber) {
+  EXPECT_EQ(rti1516e::HLAfloat64Time(2.5).toString(), L"2.5");
+  for (const double value : {0.1, 1e-7, 1.0 / 3.0, std::numeric_limits<double>::denorm_min(),
+                             std::numeric_limits<double>::max()}) {
+    EXPECT_EQ(rti1516e::HLAfloat64Interval(value).toString(),
+              rti1516e::HLAfloat64Time(value).toString());
+    EXPECT_EQ(std::wcstod(rti1516e::HLAfloat64Time(value).toString().c_str(), nullptr), value);
+  }
+}
+
 TEST(LogicalTimeKinds, EpsilonIsTheLeastIntervalAboveZero) {
   check_that_epsilon_is_the_least_interval_above_zero<Float64>();
   check_that_epsilon_is_the_least_interval_above_zero<Integer>();

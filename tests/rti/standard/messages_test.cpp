@@ -121,12 +121,17 @@ TEST(StandardInteractions, AValueOfAnotherSizeThanItsTypesIsRefused) {
                rti1516e::InteractionParameterNotDefined);
 }
 
+Update encoded(const rti1516e::AttributeHandleValueMap& values) {
+  Update update;
+  encode_update(port(), *port().object_class("Ship"), values, update);
+  return update;
+}
+
 TEST(StandardUpdates, OnlyWantedAttributesAreRead) {
   const rti::ObjectClassHandle ship = *port().object_class("Ship");
   const auto x = to_standard(*port().attribute(ship, "x"));
   const auto name = to_standard(*port().attribute(ship, "flag"));
-  const Update update =
-      encode_update(port(), ship, {{x, value_of("12345678")}, {name, value_of("red")}});
+  const Update update = encoded({{x, value_of("12345678")}, {name, value_of("red")}});
   const auto all = decode_update(port(), ship, update.attributes, update.values, update.attributes);
   EXPECT_EQ(content(all.at(x)), "12345678");
   EXPECT_EQ(content(all.at(name)), "red");
@@ -134,10 +139,9 @@ TEST(StandardUpdates, OnlyWantedAttributesAreRead) {
                                  rti::AttributeSet{to_core(name)});
   EXPECT_EQ(one.size(), 1u);
   EXPECT_EQ(content(one.at(name)), "red");
-  EXPECT_THROW(encode_update(port(), ship, {{x, value_of("1")}}), rti1516e::RTIinternalError);
-  EXPECT_THROW(
-      encode_update(port(), ship, {{to_standard(rti::AttributeHandle{77}), value_of("1")}}),
-      rti1516e::AttributeNotDefined);
+  EXPECT_THROW(encoded({{x, value_of("1")}}), rti1516e::RTIinternalError);
+  EXPECT_THROW(encoded({{to_standard(rti::AttributeHandle{77}), value_of("1")}}),
+               rti1516e::AttributeNotDefined);
 }
 
 TEST(StandardSettings, AnAddressIsReadInEveryForm) {

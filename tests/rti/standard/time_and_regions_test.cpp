@@ -46,17 +46,17 @@ TEST(StandardTime, MessagesComeInTheOrderOfTheirStampsBeforeTheGrant) {
   EXPECT_THROW(coast->timeAdvanceRequest(HLAfloat64Time(4.0)), InTimeAdvancingState);
   EXPECT_THROW(coast->modifyLookahead(HLAfloat64Interval(1.0)), InTimeAdvancingState);
   pilot->timeAdvanceRequest(HLAfloat64Time(3.0));
-  EXPECT_TRUE(coast.hears("granted 3.000000"));
+  EXPECT_TRUE(coast.hears("granted 3"));
   const std::string all = coast.log.all();
-  const std::size_t first = all.find("ordered 11111111 tag a at 1.000000"),
-                    second = all.find("ordered 22222222 tag b at 2.000000"),
-                    granted = all.find("granted 3.000000");
+  const std::size_t first = all.find("ordered 11111111 tag a at 1"),
+                    second = all.find("ordered 22222222 tag b at 2"),
+                    granted = all.find("granted 3");
   EXPECT_LT(first, second) << all;
   EXPECT_LT(second, granted) << all;
   HLAfloat64Time now;
   coast->queryLogicalTime(now);
   EXPECT_EQ(now.getTime(), 3.0);
-  EXPECT_TRUE(pilot.hears("granted 3.000000"));
+  EXPECT_TRUE(pilot.hears("granted 3"));
   EXPECT_THROW(pilot->timeAdvanceRequest(HLAfloat64Time(2.0)), LogicalTimeAlreadyPassed);
   EXPECT_THROW(pilot->updateAttributeValues(clocks.ship, {{pilot.x(), data_of("33333333")}}, {},
                                             HLAfloat64Time(1.0)),
@@ -69,13 +69,13 @@ TEST(StandardTime, AFederateAdvancesUntilItHasBeenToldTheGrant) {
   Sailor &pilot = clocks.pilot, &coast = clocks.coast;
   pilot->timeAdvanceRequest(HLAfloat64Time(1.0));
   coast->timeAdvanceRequest(HLAfloat64Time(1.0));
-  EXPECT_TRUE(coast.hears("granted 1.000000"));
+  EXPECT_TRUE(coast.hears("granted 1"));
   HLAfloat64Time now;
   for (int answer = 0; answer < 2; ++answer) pilot->queryGALT(now);  // comes behind the grant
   EXPECT_THROW(pilot->timeAdvanceRequest(HLAfloat64Time(2.0)), InTimeAdvancingState);
   pilot->queryLogicalTime(now);
   EXPECT_EQ(now.getTime(), 0.0);
-  EXPECT_TRUE(pilot.hears("granted 1.000000"));
+  EXPECT_TRUE(pilot.hears("granted 1"));
   pilot->timeAdvanceRequest(HLAfloat64Time(2.0));
 }
 
@@ -86,9 +86,9 @@ TEST(StandardTime, TheNextMessageEndsTheAdvance) {
   pilot->sendInteraction(pilot.signal(), {{from, data_of("abcd")}}, {}, HLAfloat64Time(1.5));
   coast->nextMessageRequest(HLAfloat64Time(5.0));
   pilot->timeAdvanceRequest(HLAfloat64Time(5.0));
-  EXPECT_TRUE(coast.hears("granted 1.500000"));
+  EXPECT_TRUE(coast.hears("granted 1.5"));
   EXPECT_TRUE(
-      coast.log.has("received " + to_utf8(coast.signal().toString()) + " abcd tag  at 1.500000"));
+      coast.log.has("received " + to_utf8(coast.signal().toString()) + " abcd tag  at 1.5"));
 }
 
 TEST(StandardTime, ARetractedMessageIsNotDelivered) {
@@ -102,9 +102,9 @@ TEST(StandardTime, ARetractedMessageIsNotDelivered) {
   EXPECT_THROW(pilot->retract(MessageRetractionHandle()), InvalidMessageRetractionHandle);
   coast->timeAdvanceRequest(HLAfloat64Time(3.0));
   pilot->timeAdvanceRequest(HLAfloat64Time(3.0));
-  EXPECT_TRUE(coast.hears("granted 3.000000"));
-  EXPECT_TRUE(coast.log.has("ordered 22222222 tag  at 2.000000"));
-  EXPECT_FALSE(coast.log.has("ordered 11111111 tag  at 1.000000"));
+  EXPECT_TRUE(coast.hears("granted 3"));
+  EXPECT_TRUE(coast.log.has("ordered 22222222 tag  at 2"));
+  EXPECT_FALSE(coast.log.has("ordered 11111111 tag  at 1"));
 }
 
 TEST(StandardTime, BoundsAreThoseOfTheOtherFederates) {
@@ -135,7 +135,7 @@ TEST(StandardTime, ADeletionHasItsTimeAndItsTag) {
   pilot->deleteObjectInstance(clocks.ship, data_of("bye"), HLAfloat64Time(1.0));
   coast->timeAdvanceRequest(HLAfloat64Time(2.0));
   pilot->timeAdvanceRequest(HLAfloat64Time(2.0));
-  EXPECT_TRUE(coast.hears("removed tag bye at 1.000000"));
+  EXPECT_TRUE(coast.hears("removed tag bye at 1"));
 }
 
 /// An update whose attribute goes in receive order keeps the time that its sender gave.
@@ -146,7 +146,7 @@ TEST(StandardTime, WhatGoesInReceiveOrderKeepsItsTime) {
                                                    data_of("t"), HLAfloat64Time(1.0));
   EXPECT_FALSE(handle.isValid());
   coast->enableAsynchronousDelivery();
-  EXPECT_TRUE(coast.hears("stamped red tag t at 1.000000"));
+  EXPECT_TRUE(coast.hears("stamped red tag t at 1"));
   pilot->changeAttributeOrderType(clocks.ship, {pilot.flag()}, TIMESTAMP);
   EXPECT_TRUE(pilot
                   ->updateAttributeValues(clocks.ship, {{pilot.flag(), data_of("blue")}}, {},
