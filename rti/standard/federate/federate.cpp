@@ -7,6 +7,7 @@
 #include <chrono>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "rti/standard/wide_text.h"
 
@@ -160,11 +161,10 @@ void Federate::ensure_connection(Lock& lock) {
 /// mutex.
 class Federate::Beside {
  public:
-  Beside(rti1516e::FederateAmbassador& user, const Settings& settings, Lock& lock)
+  Beside(rti1516e::FederateAmbassador& user, Settings settings, Lock& lock)
       : other_(std::make_shared<Federate>()) {
-    const Settings copy = settings;
     lock.unlock();
-    other_->connect(user, rti1516e::HLA_EVOKED, copy);
+    other_->connect(user, rti1516e::HLA_EVOKED, std::move(settings));
   }
   ~Beside() { other_->close(); }
   Beside(const Beside&) = delete;
