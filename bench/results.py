@@ -99,7 +99,7 @@ CROWD = [  # part, filter, policy, extrapolate, in words
 
 
 def crowd_table(folder):
-    """The table and the sentences at the head of README.md, of the default experiment's report in `folder`."""
+    """The table that README.md shows too, and sentences, of the default experiment's report in `folder`."""
     summary = rows_of(folder / "summary.csv")
     lines = ["|filter|update policy|payload, kB/s|on the wire, kB/s|recall|displayed error, mm|", "|---|---|---|---|---|---|"]
     for part, scheme, policy, extrapolates, words in CROWD:
@@ -227,7 +227,7 @@ def joined(lines):
 
 
 def page_of(template, measurements):
-    """The page, and the lines of it that README.md shows, too."""
+    """The page, and the table of it that README.md shows, too."""
     lines, head, at = [], [], 0
     source = template.splitlines()
     while at < len(source):
@@ -239,8 +239,9 @@ def page_of(template, measurements):
         end = source.index("```", at)
         asked = joined(source[at + 1:end])
         if fence[1] == "crowd":
-            head = [BEGIN, *crowd_table(ROOT / asked), END]
-            lines += head
+            table = crowd_table(ROOT / asked)
+            head = [BEGIN, *table[:table.index("")], END]
+            lines += [BEGIN, *table, END]
         elif fence[1] == "provenance":
             lines += ["```", *provenance_lines(*(ROOT / name for name in asked.split())), "```"]
         elif fence[1] == "saturation":

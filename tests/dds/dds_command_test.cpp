@@ -41,7 +41,7 @@ TEST_F(DdsCommand, RefusesADomainThatIsInUse) {
   // The first says its domain, which is free; the second asks for it.
   const std::string script = serve + ">" + file("first") +
                              " 2>&1 & first=$!; for k in 1 2 3 4 5 6 7 8 9 10; do "
-                             "grep -q listening " +
+                             "grep -qs listening " +
                              file("first") +
                              " && break; sleep 0.2; done; "
                              "number=$(sed 's/.* //' " +
@@ -57,7 +57,7 @@ TEST_F(DdsCommand, EndsWithTheServerAndLeavesNoProcessBehind) {
   const std::string script =
       program + "serve --clients 1 --duration 30 >" + file("first") +
       " 2>&1 & first=$!; "
-      "for k in 1 2 3 4 5 6 7 8 9 10; do grep -q listening " +
+      "for k in 1 2 3 4 5 6 7 8 9 10; do grep -qs listening " +
       file("first") + " && break; sleep 0.2; done; (sleep 1.5; kill -INT $first) & " + program +
       "bots --duration 30 --domain $(sed 's/.* //' " + file("first") + ") 2>" + file("said") +
       "; status=$?; wait $first; echo $? >" + file("ended") + "; exit $status";

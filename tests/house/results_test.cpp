@@ -148,12 +148,13 @@ TEST_F(Results, OfTheCrowdStandInTheReadmeToo) {
                                       "0.9999|3.99|\n"),
                             HasSubstr("|`region`|`dead-reckoning-drag`: clients know the drag; in "
                                       "virtual time|3.30|"
-                                      "6.90|0.9999|3.99|\n")));
+                                      "6.90|0.9999|3.99|\n"),
+                            Not(HasSubstr("equal displayed error"))));
 }
 
 TEST_F(Results, AtEqualErrorSayOfWhatCrowdAndRecallAndHaveAnIntervalEach) {
   ASSERT_EQ(run(report()), 0) << said();
-  const std::string words = unfolded(content("README.md"));
+  const std::string words = unfolded(content("docs/results.md"));
   EXPECT_THAT(words, HasSubstr("32 clients under `region` in virtual time"));
   for (const char* at :
        {"- no delay, recall 0.9866 without a margin: ", "- no delay, recall 0.9990 by margins: ",
@@ -170,13 +171,13 @@ TEST_F(Results, AtEqualErrorSayOfWhatCrowdAndRecallAndHaveAnIntervalEach) {
 TEST_F(Results, AtEqualErrorNameRivalsWithFewPoints) {
   snapshots_below_ = "4";
   ASSERT_EQ(run(report()), 0) << said();
-  EXPECT_THAT(unfolded(content("README.md")),
+  EXPECT_THAT(unfolded(content("docs/results.md")),
               HasSubstr("Fewer than five points on a side of the error: `snapshot`."));
 }
 
 TEST_F(Results, SayWhatTheBestRivalSendsAtTheSameRate) {
   ASSERT_EQ(run(report()), 0) << said();
-  EXPECT_THAT(unfolded(content("README.md")),
+  EXPECT_THAT(unfolded(content("docs/results.md")),
               HasSubstr("At the same 30 Hz `dead-reckoning-drag` with its 5 mm errs 1.10 times as "
                         "far as that and sends 1.04 times the payload and 1.01 times the bytes on "
                         "the wire; with 50 ms of delay 1.10, 1.04 and 1.01 times."));
@@ -294,7 +295,8 @@ TEST(Readme, QuotesThePageOfResultsAlone) {
   const std::string readme = test::text_of(test::source_folder() + "/README.md"),
                     page = test::text_of(test::source_folder() + "/docs/results.md");
   EXPECT_GT(between(page).size(), 500u);
-  EXPECT_EQ(between(readme), between(page)) << "./rink results writes both";
+  EXPECT_GT(between(readme).size(), 500u);
+  EXPECT_TRUE(between(page).starts_with(between(readme))) << "./rink results writes both";
 }
 
 TEST(PageOfResults, HoldsWhatItsTemplateAsksForWithinThreeThousandWords) {
