@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what bench/results.md asks for and writes it into docs/results.md, its first table also into README.md, with fewer comparisons: one machine, one commit, each figure below its command."""
+"""Measures what bench/results.md asks for and writes it into docs/results.md, its first table also into README.md, with the best rival: one machine, one commit, each figure below its command."""
 import argparse
 import csv
 import json
@@ -81,14 +81,15 @@ def rows_of(file):
         return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-def short(lines):
-    """Those at the head of README.md: without the items that compare at a recall below that of the widest margins."""
-    kept, is_left_out = [], False
-    for line in lines:
-        is_left_out = WITHOUT_MARGIN in line or (is_left_out and line.startswith("  ")) if line.startswith(("- ", "  ")) else False
-        if not is_left_out:
-            kept.append(line)
-    return kept
+def best_rival_lines(folder):
+    """What the best rival sends at equal error and equal recall, by margins, at each delay: in one sentence for the head of README.md."""
+    first = {}
+    for row in rows_of(folder / "equal_error.csv"):
+        if row["policy"] == "on-event" and row["recall_is"] != "own":
+            first.setdefault(float(row["delay_ms"]), row)
+    parts = [f"`{row['rival']}` {ratio_text(row, 'payload', 'end')} " + (f"with {delay:g} ms of delay" if delay else "without delay") for delay, row in sorted(first.items())]
+    return textwrap.wrap("At equal displayed error and equal recall the best rival of `on-event` sends so many times its payload: " + ", ".join(parts) + " ([all](docs/results.md#the-crowd-filters-policies-and-rivals-at-equal-error)).", 160,
+                         break_on_hyphens=False)
 
 
 def three_digits(text):
@@ -97,8 +98,6 @@ def three_digits(text):
         return f"{value:.0f}"
     return f"{value:.1f}" if value >= 10 else f"{value:.2f}"
 
-
-WITHOUT_MARGIN = "without a margin"
 
 CROWD = [  # part, filter, policy, extrapolate, in words
     ("prompt", "none", "periodic", "0", "`periodic (paper)`: shown where they were said to be; in virtual time"),
@@ -152,7 +151,7 @@ def equal_error_lines(folder):
     lines = textwrap.wrap(f"*At equal displayed error and equal recall*, {first['clients']} clients under `{first['scheme']}` in virtual time: how many times the payload, and the bytes on the wire, of `on-event` at "
                           f"{float(first['tick_rate_hz']):g} Hz its rivals send, the best first, with 95 % intervals:", 160) + [""]
     for (delay, recall_is), block in blocks.items():
-        means = WITHOUT_MARGIN if recall_is == "own" else "by margins"
+        means = "without a margin" if recall_is == "own" else "by margins"
         lead = "- " + (f"{delay:g} ms of delay" if delay else "no delay") + f", recall {four_decimals(block[0]['recall'])} {means}: "
         lines += textwrap.wrap(lead + ", ".join(f"`{row['rival']}` {ratio_text(row, 'payload', 'end')} and {ratio_text(row, 'wire', 'wire_end')}" for row in block), 160, subsequent_indent="  ", break_on_hyphens=False)
     return lines + ["", *textwrap.wrap(caveats(folder, rows, blocks), 160, break_on_hyphens=False)]
@@ -251,8 +250,9 @@ def page_of(template, measurements):
         end = source.index("```", at)
         asked = joined(source[at + 1:end])
         if fence[1] == "crowd":
-            lines += [BEGIN, *crowd_table(ROOT / asked), END]
-            head = [BEGIN, *short(crowd_table(ROOT / asked)), END]
+            table = crowd_table(ROOT / asked)
+            lines += [BEGIN, *table, END]
+            head = [BEGIN, *table[:table.index("")], "", *best_rival_lines(ROOT / asked), END]
         elif fence[1] == "provenance":
             lines += ["```", *provenance_lines(*(ROOT / name for name in asked.split())), "```"]
         elif fence[1] == "saturation":

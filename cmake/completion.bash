@@ -19,4 +19,4 @@ _rink() {
     COMPREPLY=($(compgen -f -- "$word"))
   fi
 }
-complete -o filenames -F _rink rink rink-compare rink-replay rink-serve rink-rti rink-bots rink-peer rink-play rink-duel rink-simulate rink-accuracy
+complete -o filenames -F _rink rink rink-compare rink-replay rink-serve rink-rti rink-bots rink-dds rink-peer rink-play rink-duel rink-simulate rink-accuracy

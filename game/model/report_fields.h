@@ -43,6 +43,7 @@ inline constexpr TextField why_invalid{"why_invalid"}, state_hash{"state_hash"};
 inline constexpr AmountField bytes_sent{"bytes_sent"}, bytes_received{"bytes_received"},
     writes_sent{"writes_sent"}, messages_sent{"messages_sent"}, segments_sent{"segments_sent"},
     acknowledgements_sent{"acknowledgements_sent"}, kernel_segments_sent{"kernel_segments_sent"},
+    header_bytes_sent{"header_bytes_sent"},  // of datagrams, by who sends no segments
     state_bytes_sent{"state_bytes_sent"}, key_bytes_received{"key_bytes_received"},
     physics_events{"physics_events"};
 inline constexpr CountField lost_federates{"lost_federates"},

@@ -13,6 +13,7 @@
 #include "game/process/process.h"
 #include "game/version/version.h"
 #include "loadgen/apps/compare_flags.h"
+#include "loadgen/apps/left_out.h"
 #include "loadgen/experiment/experiment_file.h"
 #include "loadgen/experiment/plan_text.h"
 #include "loadgen/measure/assertion.h"
@@ -89,16 +90,18 @@ void expect_enough_files(const Experiment& experiment) {
 }
 
 /// Settings without the folder for the reports. Throws ExperimentError if a program is missing.
-RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers) {
+RunnerSettings runner_settings(const CompareOptions& options, bool needs_peers, bool needs_dds) {
   RunnerSettings settings;
   const std::filesystem::path programs =
       options.programs.empty() ? own_folder() : std::filesystem::path(options.programs);
   settings.serve = programs / "rink-serve";
   settings.bots = programs / "rink-bots";
   settings.peer = programs / "rink-peer";
+  settings.dds = programs / "rink-dds";
   expect_program(settings.serve);
   expect_program(settings.bots);
   if (needs_peers) expect_program(settings.peer);
+  if (needs_dds) expect_program(settings.dds);
   settings.is_interrupted = &is_interrupted;
   settings.keeps_traces_of_curves = options.keeps_traces;
   pin_apart(settings, rink::game::allowed_processors());
@@ -242,10 +245,11 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
   if (options.seeds > 0)
     set_seeds(experiment, options.until_width > 0.0 ? std::min(options.seeds, least_replications)
                                                     : options.seeds);
+  const std::string absent = left_out(experiment);
   std::vector<Assertion> assertions;
   for (const std::string& text : options.assertions) assertions.emplace_back(text, experiment);
   if (options.is_dry_run) {
-    std::cout << plan_text(experiment, files_needed(experiment), raise_open_file_limit())
+    std::cout << absent << plan_text(experiment, files_needed(experiment), raise_open_file_limit())
               << std::flush;
     return std::cout ? success : reader_gone;
   }
@@ -255,9 +259,11 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
     return part_of(experiment, cell.part).transport == TransportKind::virtual_time;
   };
   const bool is_virtual = std::ranges::all_of(cells, is_virtual_cell);
-  const bool has_peers =
-      std::ranges::any_of(cells, [](const Cell& cell) { return cell.mode == peer_mode; });
-  RunnerSettings settings = runner_settings(options, has_peers && !is_virtual);
+  const auto has_mode = [&cells](const char* mode) {
+    return std::ranges::any_of(cells, [mode](const Cell& cell) { return cell.mode == mode; });
+  };
+  RunnerSettings settings =
+      runner_settings(options, has_mode(peer_mode) && !is_virtual, has_mode(dds_mode));
   const JournalHead identity{identity_of(experiment), rink::game::built_commit(), {}};
   Continuation continuation = opened_results(options, experiment, identity);
   std::cerr << continuation.said;
@@ -307,7 +313,7 @@ CompareStatus compare(const CompareOptions& options, const std::vector<std::stri
     std::cout << (options.saturate.is_wanted
                       ? table_of(found, options.saturate.level)
                       : table_of(shown, isatty(STDOUT_FILENO) != 0, baseline))
-              << std::flush;
+              << absent << std::flush;
     if (!options.saturate.is_wanted)
       std::cout << equal_error_table(equal_errors_of(experiment, outcome.runs))
                 << modes_table(shown) << nodes_table(shown) << growth_table(growths_of(shown))

@@ -79,6 +79,9 @@ struct Parameters {
 
 /// The mode in which each client is a peer that simulates its part of the field.
 inline constexpr const char* peer_mode = "peer-to-peer";
+/// The mode in which a server publishes all bodies over DDS instead of Rink's RTI, a partition per
+/// cell under `grid` and one for all under `none` (docs/experiments.md, "DDS").
+inline constexpr const char* dds_mode = "dds";
 
 /// The update policies that the server knows.
 std::vector<std::string> known_policies();
@@ -86,7 +89,7 @@ std::vector<std::string> known_policies();
 /// The names that an experiment may use; schemes are expressions that the RTI's filters check
 /// (docs/im.md).
 struct Vocabulary {
-  std::vector<std::string> modes{"client-server", peer_mode};
+  std::vector<std::string> modes{"client-server", peer_mode, dds_mode};
   std::vector<std::string> policies = known_policies();
 };
 
@@ -181,7 +184,7 @@ struct Cell {
 };
 
 /// All cells in the order in which tables list them, seeds outermost. Cells that differ only in
-/// what their scheme does not have run once.
+/// what their scheme does not have run once; of the mode dds there are those that it has.
 std::vector<Cell> cells_of(const Experiment& experiment);
 
 /// `cell` without the parameters that its scheme ignores: a cell size is for schemes with cells,

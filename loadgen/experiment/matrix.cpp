@@ -23,6 +23,12 @@ bool is_in_design(const Experiment& experiment, const Cell& cell) {
   return experiment.design == Design::matrix || moved <= 1;
 }
 
+/// Publishers of DDS know partitions and send every state at every tick: nothing else to combine.
+bool is_of_mode(const Cell& cell) {
+  if (cell.mode != dds_mode) return true;
+  return cell.policy == "periodic" && (cell.scheme == "none" || cell.scheme == "grid");
+}
+
 /// A difference of a cell from the default, as (short name, value, words around the value).
 struct Variation {
   const char* name;
@@ -125,7 +131,7 @@ std::vector<Cell> cells_of(const Experiment& experiment) {
       for (const Parameters& parameters : parameters_of(experiment))
         for (const std::string& scheme : experiment.schemes) {
           cell.policy = policy, cell.parameters = parameters, cell.scheme = scheme;
-          if (!is_in_design(experiment, cell)) continue;
+          if (!is_in_design(experiment, cell) || !is_of_mode(cell)) continue;
           const Cell candidate = without_idle_parameters(cell);
           if (std::find(cells.begin() + first_of_game, cells.end(), candidate) == cells.end())
             cells.push_back(candidate);

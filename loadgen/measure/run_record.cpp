@@ -14,7 +14,7 @@ RunRecord record_for(const Experiment& experiment, const Cell& cell) {
   record.scene = experiment.scene;
   record.population = experiment.population == Population::fixed ? "fixed" : "per_client";
   record.keys = experiment.keys == KeySource::replay ? "replay" : "live";
-  record.transport = to_string(experiment.transport);
+  record.transport = cell.mode == dds_mode ? "udp" : to_string(experiment.transport);
   record.delay_ms = experiment.transport == TransportKind::virtual_time ? experiment.delay_ms : 0.0;
   record.players = experiment.players;
   record.view_area = experiment.view_area;

@@ -17,7 +17,7 @@ constexpr std::array of_cells{
     Definition{"part", "", "experiment part",
                "Part of the experiment that the run belongs to, empty if it has none"},
     Definition{"mode", "", "architecture",
-               "How the federation is distributed: client-server, or peer-to-peer"},
+               "How the federation is distributed: client-server, peer-to-peer, or dds"},
     Definition{"scheme", "", "interest-management filter",
                "Interest-management filter, or an expression of several"},
     Definition{"policy", "", "update policy", "When an entity's state is sent"},

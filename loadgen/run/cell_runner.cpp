@@ -41,17 +41,19 @@ class CellRun {
                           bots_report_.string() + "l";  // NAME.server.jsonl, NAME.bots.jsonl
     std::filesystem::remove(server_trace, ignored);
     std::filesystem::remove(bots_trace, ignored);
-    std::vector<std::string> serve = serve_arguments(experiment_, cell_, key_log_, server_report_);
+    const bool is_dds = cell_.mode == dds_mode;
+    std::vector<std::string> serve = (is_dds ? dds_serve_arguments : serve_arguments)(
+        experiment_, cell_, key_log_, server_report_);
     if (settings_.wants_truth) serve.insert(serve.end(), {"--evidence", server_trace});
     const bool is_apart = cell_.server_cores == 1;
     game::Process server(
-        settings_.serve, serve,
+        is_dds ? settings_.dds : settings_.serve, serve,
         {.processors = is_apart ? settings_.server_processors : std::vector<int>{}});
     const std::string address = awaited_line(settings_, server, "listening on ", "the server");
-    std::vector<std::string> play =
-        bots_arguments(experiment_, cell_, key_log_, address, bots_report_);
+    std::vector<std::string> play = (is_dds ? dds_bots_arguments : bots_arguments)(
+        experiment_, cell_, key_log_, address, bots_report_);
     if (settings_.wants_truth) play.insert(play.end(), {"--evidence", bots_trace});
-    game::Process bots(settings_.bots, play,
+    game::Process bots(is_dds ? settings_.dds : settings_.bots, play,
                        {.processors = is_apart ? settings_.bots_processors : std::vector<int>{}});
     await(server, bots);
     record.server_cpu_s = server.ending()->cpu_s;

@@ -53,6 +53,64 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   return arguments;
 }
 
+namespace {
+
+/// The flags that server and bots over DDS share.
+std::vector<std::string> dds_arguments(const std::string& role, const Experiment& experiment,
+                                       const Cell& cell, const std::filesystem::path& key_log,
+                                       const std::filesystem::path& report) {
+  return {role,
+          "--seed",
+          std::to_string(cell.seed),
+          "--keys",
+          key_log.string(),
+          "--duration",
+          decimal(experiment.warm_up_s + experiment.duration_s),
+          "--warm-up",
+          decimal(experiment.warm_up_s),
+          "--report",
+          report.string()};
+}
+
+}  // namespace
+
+std::vector<std::string> dds_serve_arguments(const Experiment& experiment, const Cell& cell,
+                                             const std::filesystem::path& key_log,
+                                             const std::filesystem::path& report) {
+  std::vector<std::string> arguments = dds_arguments("serve", experiment, cell, key_log, report);
+  const auto add = [&arguments](const char* flag, const std::string& value) {
+    arguments.insert(arguments.end(), {flag, value});
+  };
+  add("--scene", experiment.scene);
+  if (experiment.population == Population::per_client) add("--bats", std::to_string(cell.clients));
+  if (cell.bats > 0) add("--bat-count", std::to_string(cell.bats));
+  if (cell.pucks > 0) add("--puck-count", std::to_string(cell.pucks));
+  add("--scheme", cell.scheme);
+  if (cell.parameters.cell_size > 0.0) add("--cell-size", decimal(cell.parameters.cell_size));
+  add("--rate", decimal(cell.parameters.tick_rate_hz));
+  add("--clients", std::to_string(cell.clients));
+  if (experiment.start_s > 0.0) add("--from-state", state_file_of(key_log).string());
+  return arguments;
+}
+
+std::vector<std::string> dds_bots_arguments(const Experiment& experiment, const Cell& cell,
+                                            const std::filesystem::path& key_log,
+                                            const std::string& domain,
+                                            const std::filesystem::path& report) {
+  std::vector<std::string> arguments = dds_arguments("bots", experiment, cell, key_log, report);
+  const auto add = [&arguments](const char* flag, const std::string& value) {
+    arguments.insert(arguments.end(), {flag, value});
+  };
+  add("--domain", domain);
+  add("--count", std::to_string(cell.clients));
+  add("--view", decimal(cell.parameters.view_fraction));
+  if (experiment.view_area > 0.0) add("--view-area", decimal(experiment.view_area));
+  add("--view-margin", decimal(cell.parameters.view_margin));
+  if (!cell.parameters.extrapolates) arguments.emplace_back("--no-extrapolate");
+  if (experiment.start_s > 0.0) add("--start", decimal(experiment.start_s));
+  return arguments;
+}
+
 std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell,
                                         const std::filesystem::path& key_log,
                                         const std::string& address,

@@ -16,8 +16,9 @@ namespace rink::loadgen {
 
 /// The places of the two programs and of their files, and the time limits.
 struct RunnerSettings {
-  std::filesystem::path serve, bots, peer;  ///< the executables rink-serve, rink-bots and rink-peer
-  std::filesystem::path directory;          ///< an existing folder for the processes' own reports
+  std::filesystem::path serve, bots, peer,
+      dds;  ///< the executables rink-serve, rink-bots, rink-peer and rink-dds
+  std::filesystem::path directory;  ///< an existing folder for the processes' own reports
   std::vector<int> server_processors,
       bots_processors;      ///< the processors that each is pinned to; empty: not pinned
   bool wants_truth = true;  ///< evidence is taken, and the run judged by a re-simulation
@@ -57,6 +58,14 @@ inline std::string decimal(double number) {
 std::vector<std::string> serve_arguments(const Experiment& experiment, const Cell& cell,
                                          const std::filesystem::path& key_log,
                                          const std::filesystem::path& report);
+/// The same for rink dds, of a cell of that mode; its bots find the server by `domain`.
+std::vector<std::string> dds_serve_arguments(const Experiment& experiment, const Cell& cell,
+                                             const std::filesystem::path& key_log,
+                                             const std::filesystem::path& report);
+std::vector<std::string> dds_bots_arguments(const Experiment& experiment, const Cell& cell,
+                                            const std::filesystem::path& key_log,
+                                            const std::string& domain,
+                                            const std::filesystem::path& report);
 /// The arguments that start the bots of `cell` against the server at `address` (ADDRESS:PORT).
 std::vector<std::string> bots_arguments(const Experiment& experiment, const Cell& cell,
                                         const std::filesystem::path& key_log,

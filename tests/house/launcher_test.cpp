@@ -110,8 +110,8 @@ TEST_F(Launcher, SaysWhatItKnowsAndDoesNothingElse) {
   for (const char* words : {"", "help", "--help", "-h"}) {
     EXPECT_EQ(run(words), 0) << words;
     for (const char* command :
-         {"play", "compare", "test", "serve", "rti", "peer", "duel", "bots", "simulate", "replay",
-          "accuracy", "bench", "results", "package", "setup"})
+         {"play", "compare", "test", "serve", "rti", "peer", "duel", "bots", "dds", "simulate",
+          "replay", "accuracy", "bench", "results", "package", "setup"})
       EXPECT_THAT(printed_, HasSubstr("\n  " + std::string(command) + " ")) << words;
     EXPECT_THAT(calls_, IsEmpty()) << words;
   }
@@ -126,15 +126,17 @@ TEST_F(Launcher, RefusesACommandThatThereIsNot) {
 }
 
 TEST_F(Launcher, BuildsWhatACommandNeedsAndHandsItTheArguments) {
-  const std::map<std::string, std::string> targets{{"compare", "rink-compare rink-serve rink-bots"},
-                                                   {"play", "rink-play rink-serve"},
-                                                   {"serve", "rink-serve"},
-                                                   {"rti", "rink-rti"},
-                                                   {"bots", "rink-bots"},
-                                                   {"duel", "rink-duel"},
-                                                   {"peer", "rink-peer"},
-                                                   {"simulate", "rink-simulate"},
-                                                   {"replay", "rink-replay"}};
+  const std::map<std::string, std::string> targets{
+      {"compare", "rink-compare rink-serve rink-bots rink-dds"},
+      {"play", "rink-play rink-serve"},
+      {"serve", "rink-serve"},
+      {"rti", "rink-rti"},
+      {"bots", "rink-bots"},
+      {"dds", "rink-dds"},
+      {"duel", "rink-duel"},
+      {"peer", "rink-peer"},
+      {"simulate", "rink-simulate"},
+      {"replay", "rink-replay"}};
   for (const auto& [command, all] : targets) {
     EXPECT_EQ(run(command + " --help one 'two  words'"), 0) << said_;
     EXPECT_EQ(printed_, "rink-" + command + " got: --help one two  words\n");
@@ -151,8 +153,8 @@ TEST_F(Launcher, MeasuresWithoutAsserts) {
 }
 
 TEST_F(Launcher, EndsWithTheStatusOfItsCommand) {
-  for (const char* command : {"compare", "play", "serve", "rti", "peer", "duel", "bots", "simulate",
-                              "replay", "accuracy", "bench", "test", "results"})
+  for (const char* command : {"compare", "play", "serve", "rti", "peer", "duel", "bots", "dds",
+                              "simulate", "replay", "accuracy", "bench", "test", "results"})
     EXPECT_EQ(run(command, "STATUS=17"), 17) << command;
 }
 
