@@ -220,8 +220,10 @@ TEST_F(Launcher, RunsThreeAreasWithTheFlagsOfTheBenchmarks) {
 std::multiset<std::string> programs_of_tests() {
   static const std::regex definition(R"(^rink_tests\(([a-z-]+))");
   std::multiset<std::string> programs;
-  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() + "/tests")) {
-    std::ifstream stream(entry.path() / "CMakeLists.txt");
+  const std::string tests = test::source_folder() + "/tests";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(tests)) {
+    if (entry.path().filename() != "CMakeLists.txt") continue;
+    std::ifstream stream(entry.path());
     for (std::string line; std::getline(stream, line);)
       if (std::smatch match; std::regex_search(line, match, definition) && match[1] != "house")
         programs.insert("test-" + match[1].str());
