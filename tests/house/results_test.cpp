@@ -175,13 +175,13 @@ TEST_F(Results, AtEqualErrorSayOfWhatCrowdAndRecallAndHaveAnIntervalEach) {
 TEST_F(Results, AtEqualErrorNameRivalsWithFewPoints) {
   snapshots_below_ = "4";
   ASSERT_EQ(run(report()), 0) << said();
-  EXPECT_THAT(unfolded(content("README.md")),
+  EXPECT_THAT(unfolded(content("docs/results.md")),
               HasSubstr("Fewer than five points on a side of the error: `snapshot`."));
 }
 
 TEST_F(Results, SayWhatTheBestRivalSendsAtTheSameRate) {
   ASSERT_EQ(run(report()), 0) << said();
-  EXPECT_THAT(unfolded(content("README.md")),
+  EXPECT_THAT(unfolded(content("docs/results.md")),
               HasSubstr("At the same 30 Hz `dead-reckoning-drag` with its 5 mm errs 1.10 times as "
                         "far as that and sends 1.04 times the payload and 1.01 times the bytes on "
                         "the wire; with 50 ms of delay 1.10, 1.04 and 1.01 times."));
