@@ -89,6 +89,8 @@ void Application::do_wish(const MenuWish& wish) {
   if ((wish.kind == Kind::full_screen || wish.kind == Kind::settings_changed) &&
       surroundings_.save_settings)
     surroundings_.save_settings(settings_);
+  if (wish.kind == Kind::settings_noted && surroundings_.remember_settings)
+    surroundings_.remember_settings(settings_);
 }
 
 /// Two players at one keyboard see the table each from their own end, unless they chose a camera
@@ -141,19 +143,14 @@ void Application::follow_phase() {
 
 /// Whoever used a key once needs no hint of it.
 void Application::use(Hint hint) {
-  if (FirstMinute::use(hint, settings_)) remember();
-}
-
-/// Keeps what nobody asked to be kept.
-void Application::remember() const {
-  if (surroundings_.remember_settings) surroundings_.remember_settings(settings_);
+  if (FirstMinute::use(hint, settings_)) do_wish({MenuWish::Kind::settings_noted, {}});
 }
 
 /// What a player of a match is told, over the picture.
 void Application::tell(double now_s, Picture& words) {
   const MatchSight& sight = match_->sight();
   if (match_->hand_count() > 0) {
-    if (told_.first.look(sight, now_s, settings_)) remember();
+    if (told_.first.look(sight, now_s, settings_)) do_wish({MenuWish::Kind::settings_noted, {}});
     told_.first.add_to(sight, settings_, match_->hand_count() == 1, words);
   }
   if (settings_.is_best_of_three && match_->hand_count() > 0)
@@ -165,18 +162,13 @@ bool Application::has_motion() const {
   return settings_.has_effects && !settings_.has_less_motion && !surroundings_.wants_less_motion;
 }
 
-void Application::look_for_effects(double now_s) {
-  if (!has_motion() || wish_.kind == MatchWish::Kind::bots) {
-    feel_ = {};
-    return;
-  }
-  const auto* replay = dynamic_cast<const game::ReplayMatch*>(match_.get());
+void Application::Feel::look(const MatchSource& match, double elapsed_s) {
+  const auto* recorded = dynamic_cast<const game::ReplayMatch*>(&match);
   const bool stands =
-      match_->sight().phase != Phase::playing || (replay != nullptr && replay->is_paused());
-  if (!stands && figures_.last_s >= 0.0)
-    feel_.clock_s += (replay != nullptr ? replay->speed() : 1.0) * (now_s - figures_.last_s);
-  feel_.impacts.look(match_->sight(), feel_.clock_s);
-  if (replay == nullptr) feel_.replay.look(match_->sight(), feel_.clock_s);
+      match.sight().phase != Phase::playing || (recorded != nullptr && recorded->is_paused());
+  if (!stands) clock_s += (recorded != nullptr ? recorded->speed() : 1.0) * elapsed_s;
+  impacts.look(match.sight(), clock_s);
+  if (recorded == nullptr) replay.look(match.sight(), clock_s);
 }
 
 ViewChoice Application::view(const MatchSight& sight, double now_s) {
@@ -270,15 +262,9 @@ void Application::add_record(const ViewChoice& choice, double aspect, Picture& w
     surroundings_.notify(wish_.address + ": " + notice);
 }
 
-/// Not beside a menu, which hears the space bar too, nor beside who has won.
-bool Application::shows_goal_again() const {
-  return feel_.replay.shown() != nullptr && match_->hand_count() == 1 &&
-         menu_.screen() == Menu::Screen::none && match_->sight().phase != Phase::over;
-}
-
 /// A goal of a player's own match, in the upper left corner: the match goes on beside it.
 void Application::draw_goal_again(Renderer* renderer, const Canvas& canvas, Picture& words) {
-  if (!shows_goal_again()) return;
+  if (!feel_.shows_goal(*match_, menu_)) return;
   const MatchSight* sight = feel_.replay.shown();
   constexpr float left = 0.02f, top = 0.09f, part = 0.3f;
   const int width = static_cast<int>(part * static_cast<float>(canvas.width)),
@@ -320,7 +306,9 @@ void Application::draw(Interface& interface, Renderer* renderer, const WindowSiz
   match_->advance(now_s);
   follow_phase();
   if (match_->hand_count() > 0) told_.series.look(match_->sight());
-  look_for_effects(now_s);
+  if (has_motion() && wish_.kind != MatchWish::Kind::bots)
+    feel_.look(*match_, figures_.last_s < 0.0 ? 0.0 : now_s - figures_.last_s);
+  else feel_ = {};
   if (surroundings_.sound)  // behind the menu too, where music goes on and its volume changes
     surroundings_.sound(
         wish_.kind == MatchWish::Kind::bots ? std::vector<Noise>{} : match_->sight().noises,

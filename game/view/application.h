@@ -92,6 +92,14 @@ class Application {
     ImpactEffects impacts;
     GoalReplay replay;
     double clock_s = 0.0;  ///< stands where the match stands, and goes at a replay's speed
+
+    /// Takes up the match's sight, `elapsed_s` [s] after the last one.
+    void look(const MatchSource& match, double elapsed_s);
+    /// Not beside a menu, which hears the space bar too, nor beside who has won.
+    bool shows_goal(const MatchSource& match, const Menu& menu) const {
+      return replay.shown() != nullptr && match.hand_count() == 1 &&
+             menu.screen() == Menu::Screen::none && match.sight().phase != Phase::over;
+    }
   };
 
   // application.cpp
@@ -104,9 +112,6 @@ class Application {
   void follow_phase();
   ViewChoice view(const MatchSight& sight, double now_s);
   bool has_motion() const;
-  void look_for_effects(double now_s);
-  bool shows_goal_again() const;
-  void remember() const;
   void use(Hint hint);
   void tell(double now_s, Picture& words);
   void add_record(const ViewChoice& choice, double aspect, Picture& words);

@@ -62,7 +62,7 @@ void Application::set_split(bool is_wanted) {
 /// Handles keys of the window; those of the bats come first.
 bool Application::hear_command(KeyCode code) {
   if (hear_replay(code)) return true;
-  if (code == GLFW_KEY_SPACE && shows_goal_again()) {
+  if (code == GLFW_KEY_SPACE && feel_.shows_goal(*match_, menu_)) {
     feel_.replay.skip();
     return true;
   }

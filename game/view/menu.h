@@ -34,6 +34,7 @@ struct MenuWish {
     leave,
     quit,
     settings_changed,
+    settings_noted,  ///< unasked
     full_screen
   };
   Kind kind = Kind::nothing;
