@@ -136,6 +136,8 @@ void Interest::disassociate(std::uint32_t federate, ObjectSlot slot, RegionHandl
 void Interest::take(const Reassociation& change) {
   for (const im::Entity entity : change.gone) subscriptions_.forget(entity);
   changed_objects_.insert(changed_objects_.end(), change.objects.begin(), change.objects.end());
+  // What was held back of them is held back by the new region's entity, which knows of none.
+  for (const ObjectSlot slot : change.objects) object_updated(slot);
   if (change.is_mixing_changed) subscriptions_.mark_regional_changed();
 }
 

@@ -91,7 +91,7 @@ SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettin
                               : reach_of(scheme, settings, extent_max)),
       is_selective_(scheme != "none"),
       remembers_(scheme.find("with") != std::string::npos ||
-                 scheme.find("cone") != std::string::npos),
+                 scheme.find("cone") != std::string::npos || im::names_scheme(scheme, "zones")),
       sends_trajectories_(policy == "on-event"),
       body_roles_(std::move(roles)),
       is_here_(body_roles_.size(), 0) {
@@ -224,10 +224,10 @@ std::vector<std::byte> SenderInterest::updates_for(
   }
   std::sort(now_sent.begin(), now_sent.end());
   // The player simulates its own bodies and ghosts itself; a body that has another owner by now,
-  // and is still in scope, is sent by that owner. A scheme that remembers may decide otherwise at
-  // the new owner, so the body is then sent as left, which is ignored if the new owner has sent it.
-  // The new owner sends it first in this window, so this peer does so in the next: no player loses
-  // it meanwhile.
+  // and is still in scope, is sent by that owner. A scheme that remembers, or whose zones follow
+  // from all bodies, may decide otherwise at the new owner, so the body is then sent as left, which
+  // is ignored if the new owner has sent it. The new owner sends it first in this window, so this
+  // peer does so in the next: no player loses it meanwhile.
   for (const std::uint32_t body : handed_over_[player])
     if (!contains(now_sent, body) && (remembers_ || !contains(scope, body)))
       put(body, Form::left, 0, {});
