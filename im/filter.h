@@ -57,6 +57,7 @@ struct Traits {
   bool uses_facts = false,    ///< `Facts`
       uses_time = false,      ///< the time of `set_time`, against which the facts' times count
       holds_updates = false;  ///< updates of relevant pairs wait until the pair is `due`
+  bool depends_on_crowd = false;  ///< its shapes follow from where all entities are
 };
 
 /// The kinds of things that conditions tell apart (docs/im.md, "Conditions").

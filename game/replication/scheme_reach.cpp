@@ -103,8 +103,9 @@ SchemeReach reach_of(const std::string& scheme, im::FilterSettings settings, dou
   for (const char* const plain :
        {"region", "aura", "hybrid", "sight", "cone", "diamond", "nimbus", "pvs", "tiles"})
     if (scheme == plain) return {extent_max, extent_max};
-  // Zones follow from all bodies: of few there is one, the whole world.
-  if (scheme == "none" || im::names_scheme(scheme, "zones")) return {infinity, infinity};
+  // What follows from all bodies is not seen with the few of a trial.
+  if (scheme == "none" || im::make_filter(scheme, settings)->traits().depends_on_crowd)
+    return {infinity, infinity};
   settings.posts.clear();  // which only hide
   const double farthest = std::max(settings.world.high_x - settings.world.low_x,
                                    settings.world.high_y - settings.world.low_y);

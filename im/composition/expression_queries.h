@@ -1,7 +1,6 @@
 // What several sources ask of a parsed expression.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "im/composition/expression.h"
@@ -23,12 +22,20 @@ inline bool holds_updates(const Expression& expression) {
          (expression.name == "dyconits" || expression.name == "vfc");
 }
 
+/// The outermost part, and of those the first in the text, for which `is_one` holds, or nothing.
+template <class IsOne>
+const Expression* first_part(const Expression& expression, const IsOne& is_one) {
+  if (is_one(expression)) return &expression;
+  for (const Expression& operand : expression.operands)
+    if (const Expression* const found = first_part(operand, is_one)) return found;
+  return nullptr;
+}
+
 /// The first stage `swept` in `expression`, or nothing.
 inline const Expression* swept_in(const Expression& expression) {
-  if (expression.kind == Expression::Kind::stage && expression.name == "swept") return &expression;
-  for (const Expression& operand : expression.operands)
-    if (const Expression* const found = swept_in(operand)) return found;
-  return nullptr;
+  return first_part(expression, [](const Expression& part) {
+    return part.kind == Expression::Kind::stage && part.name == "swept";
+  });
 }
 
 /// A part that a combination takes as one operand.
@@ -51,13 +58,11 @@ inline const rink_plugin* plugin_of(const Expression& owner, const FilterSetting
 /// True if `is_one` holds for a scheme in the expression `text`.
 template <class IsOne>
 bool has_scheme(const std::string& text, const IsOne& is_one) {
-  const auto search = [&is_one](const auto& self, const Expression& expression) -> bool {
-    if (expression.kind == Expression::Kind::scheme && is_one(expression)) return true;
-    return std::any_of(expression.operands.begin(), expression.operands.end(),
-                       [&](const Expression& operand) { return self(self, operand); });
-  };
   Expression expression;
-  return read_expression(text, expression).empty() && search(search, expression);
+  return read_expression(text, expression).empty() &&
+         first_part(expression, [&is_one](const Expression& part) {
+           return part.kind == Expression::Kind::scheme && is_one(part);
+         });
 }
 
 }  // namespace rink::im

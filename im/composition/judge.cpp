@@ -189,18 +189,7 @@ std::string judge_plugins(const Expression& expression, const FilterSettings& se
          (is_score ? "score, which belongs after by" : "predicate, which belongs after when");
 }
 
-bool names_zones(const Expression& expression) {
-  return (expression.kind == Kind::scheme && expression.name == "zones") ||
-         std::any_of(expression.operands.begin(), expression.operands.end(), names_zones);
-}
-
-/// The first stage that ranks in `expression`, or nothing.
-const Expression* rank_in(const Expression& expression) {
-  if (is_rank(expression)) return &expression;
-  for (const Expression& operand : expression.operands)
-    if (const Expression* const found = rank_in(operand)) return found;
-  return nullptr;
-}
+bool is_zones(const Expression& part) { return part.kind == Kind::scheme && part.name == "zones"; }
 
 /// The fault of `expression` itself, whose operands are valid; `place` is set if it is not that of
 /// the expression.
@@ -222,10 +211,11 @@ std::string judge_own(const Expression& expression, Expression::Place* place = n
     if (is_scored)
       if (std::string complaint = judge_function(expression, place); !complaint.empty())
         return complaint;
-    if (const Expression* const rank = rank_in(expression); rank && expression.name == "swept")
+    if (const Expression* const rank = first_part(expression, is_rank);
+        rank && expression.name == "swept")
       return "swept cannot follow " + rank->name +
              ": which are first anywhere on the way is not known";
-    if (expression.name == "swept" && names_zones(expression))
+    if (expression.name == "swept" && first_part(expression, is_zones))
       return "swept cannot follow zones: which zones there will be on the way is not known";
     if (holds_updates(expression) && swept_in(expression))
       return expression.name +

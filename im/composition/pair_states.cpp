@@ -5,29 +5,9 @@
 
 namespace rink::im {
 
-PairStates::Entry* PairStates::find(Buffer<Entry>& entries, Entity entity) {
-  Entry* const end = entries.data() + entries.size();
-  Entry* const place = std::lower_bound(
-      entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
-  return place == end || place->entity != entity ? nullptr : place;
-}
-
-void PairStates::remove_entity(Entity entity) {
-  for (Buffer<Entry>& entries : entries_) {
-    Entry* const place = find(entries, entity);
-    if (place == nullptr) continue;
-    std::copy(place + 1, entries.data() + entries.size(), place);
-    entries.resize(entries.size() - 1);
-  }
-}
-
-void PairStates::remove_subscriber(Subscriber subscriber) {
-  if (subscriber < entries_.size()) entries_[subscriber].clear();
-}
-
 void PairStates::touch_entity(Entity entity) {
   for (Subscriber subscriber = 0; subscriber < entries_.size(); ++subscriber)
-    if (find(entries_[subscriber], entity) != nullptr) news_.push_back({subscriber, entity, 0, 0});
+    if (entries_.find(subscriber, entity)) news_.push_back({subscriber, entity, 0, 0});
 }
 
 void PairStates::touch_subscriber(Subscriber subscriber) {
@@ -65,14 +45,9 @@ void PairStates::join_news() {
 }
 
 void PairStates::check() const {
-  for (const Buffer<Entry>& entries : entries_) {
-    for (std::size_t i = 1; i < entries.size(); ++i)
-      assert(entries[i - 1].entity < entries[i].entity);
-    for ([[maybe_unused]] const Entry& entry : entries.span()) {
-      assert(entry.decisions != 0 || entry.level != 0);
-      assert(entry.level <= filter_max);
-    }
-  }
+  entries_.check([](const Entry& entry) {
+    return (entry.decisions != 0 || entry.level != 0) && entry.level <= filter_max;
+  });
 }
 
 }  // namespace rink::im

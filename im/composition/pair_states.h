@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "im/basics/checked.h"
+#include "im/composition/pair_lists.h"
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 
@@ -25,8 +26,8 @@ class PairStates {
   using Level = std::uint16_t;
 
   /// Forget the pairs of an id. Removing an entity looks at the list of every subscriber.
-  void remove_entity(Entity entity);
-  void remove_subscriber(Subscriber subscriber);
+  void remove_entity(Entity entity) { entries_.remove_entity(entity); }
+  void remove_subscriber(Subscriber subscriber) { entries_.remove_subscriber(subscriber); }
   /// Have all pairs of an id evaluated again. Touching an entity looks at the list of every
   /// subscriber.
   void touch_entity(Entity entity);
@@ -53,8 +54,6 @@ class PairStates {
     Entity entity;
     Decisions on, off;
   };
-  /// That of the entity; null if there is none.
-  static Entry* find(Buffer<Entry>& entries, Entity entity);
   static bool is_before(const News& a, const News& b) {
     return a.subscriber != b.subscriber ? a.subscriber < b.subscriber : a.entity < b.entity;
   }
@@ -62,7 +61,7 @@ class PairStates {
   template <class Decide>
   void look(const News& news, Entry entry, const Decide& decide, Buffer<Change>& changes);
 
-  std::vector<Buffer<Entry>> entries_;  // by subscriber, ascending
+  PairLists<Entry> entries_;
   Buffer<News> news_;
   Buffer<Entry> merged_;
 };
@@ -90,8 +89,7 @@ std::size_t PairStates::review(const Decide& decide, Buffer<Change>& changes) {
   join_news();
   for (std::size_t next = 0; next < news_.size();) {
     const Subscriber subscriber = news_[next].subscriber;
-    if (subscriber >= entries_.size()) entries_.resize(subscriber + std::size_t{1});
-    Buffer<Entry>& entries = entries_[subscriber];
+    Buffer<Entry>& entries = entries_.list_of(subscriber);
     merged_.clear();
     std::size_t i = 0;
     for (; next < news_.size() && news_[next].subscriber == subscriber; ++next) {

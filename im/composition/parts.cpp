@@ -24,6 +24,11 @@ Parts::Parts(std::vector<std::unique_ptr<Filter>> parts) : parts_(std::move(part
   assert(std::find(parts_.begin(), parts_.end(), nullptr) == parts_.end());
 }
 
+Parts::Parts(std::unique_ptr<Filter> only) {
+  assert(only != nullptr);
+  parts_.push_back(std::move(only));
+}
+
 void Parts::set_update_region(Entity entity, const Region& region) {
   for (const auto& part : parts_) part->set_update_region(entity, region);
 }
@@ -81,7 +86,7 @@ Traits Parts::traits() const {
     all.uses_roles |= own.uses_roles, all.uses_headings |= own.uses_headings,
         all.uses_flights |= own.uses_flights, all.decides_tiers |= own.decides_tiers,
         all.uses_facts |= own.uses_facts, all.uses_time |= own.uses_time,
-        all.holds_updates |= own.holds_updates;
+        all.holds_updates |= own.holds_updates, all.depends_on_crowd |= own.depends_on_crowd;
   }
   return all;
 }

@@ -16,6 +16,7 @@ class Parts : public Filter {
  public:
   /// At least one, and none is null.
   explicit Parts(std::vector<std::unique_ptr<Filter>> parts);
+  explicit Parts(std::unique_ptr<Filter> only);
 
   void set_update_region(Entity entity, const Region& region) override;
   void remove_entity(Entity entity) override;

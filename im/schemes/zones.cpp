@@ -41,6 +41,7 @@ class ZonesFilter final : public OverlapFilter {
       OverlapFilter::set_update_region(entity, tree_.zone_of(entity));
     return OverlapFilter::match();
   }
+  Traits traits() const override { return {.depends_on_crowd = true}; }
   void list_counts(std::vector<StageCount>& counts) const override {
     counts.push_back({"zones", "zones at the end", tree_.zone_count()});
   }

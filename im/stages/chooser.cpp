@@ -5,18 +5,9 @@
 #include <cassert>
 
 namespace rink::im {
-namespace {
-
-std::vector<std::unique_ptr<Filter>> one(std::unique_ptr<Filter> filter) {
-  std::vector<std::unique_ptr<Filter>> parts;
-  parts.push_back(std::move(filter));
-  return parts;
-}
-
-}  // namespace
 
 Chooser::Chooser(std::unique_ptr<Filter> inner, const PairUses& uses)
-    : Parts(one(std::move(inner))), entities_(uses), subscribers_(uses), uses_(uses) {}
+    : Parts(std::move(inner)), entities_(uses), subscribers_(uses), uses_(uses) {}
 
 void Chooser::set_update_region(Entity entity, const Region& region) {
   if (entities_.place(entity, region)) pairs_.touch_near(entity);

@@ -9,18 +9,9 @@
 #include "im/basics/checked.h"
 
 namespace rink::im {
-namespace {
-
-std::vector<std::unique_ptr<Filter>> only(std::unique_ptr<Filter> inner) {
-  std::vector<std::unique_ptr<Filter>> parts;
-  parts.push_back(std::move(inner));
-  return parts;
-}
-
-}  // namespace
 
 HeldUpdates::HeldUpdates(std::unique_ptr<Filter> inner, const char* name)
-    : Parts(only(std::move(inner))), name_(name) {}
+    : Parts(std::move(inner)), name_(name) {}
 
 double HeldUpdates::distance(const Half& from, const Half& to) {
   const double x = to.x - from.x, y = to.y - from.y;
@@ -48,7 +39,8 @@ void HeldUpdates::list(Entity entity) {
 void HeldUpdates::set_subscription_region(Subscriber subscriber, const Region& region) {
   if (subscriber >= subscriptions_.size()) {
     const std::size_t count = subscriber + std::size_t{1};
-    subscriptions_.resize(count), held_.resize(count), has_untold_.resize(count);
+    subscriptions_.resize(count), has_untold_.resize(count);
+    held_.list_of(subscriber);
   }
   subscriptions_[subscriber] = region;
   Parts::set_subscription_region(subscriber, region);
@@ -58,25 +50,12 @@ void HeldUpdates::remove_entity(Entity entity) {
   Parts::remove_entity(entity);
   if (entity >= places_.size()) return;
   places_[entity].is_new = true;
-  for (Subscriber subscriber = 0; subscriber < held_.size(); ++subscriber)
-    if (Held* const held = find(subscriber, entity)) {
-      Buffer<Held>& pairs = held_[subscriber];
-      std::copy(held + 1, pairs.data() + pairs.size(), held);
-      pairs.resize(pairs.size() - 1);
-    }
+  held_.remove_entity(entity);
 }
 
 void HeldUpdates::remove_subscriber(Subscriber subscriber) {
   Parts::remove_subscriber(subscriber);
-  if (subscriber < held_.size()) held_[subscriber].clear();
-}
-
-HeldUpdates::Held* HeldUpdates::find(Subscriber subscriber, Entity entity) {
-  Buffer<Held>& pairs = held_[subscriber];
-  Held* const end = pairs.data() + pairs.size();
-  Held* const place = std::lower_bound(
-      pairs.data(), end, entity, [](const Held& each, Entity id) { return each.entity < id; });
-  return place != end && place->entity == entity ? place : nullptr;
+  held_.remove_subscriber(subscriber);
 }
 
 std::span<const Change> HeldUpdates::match() {
@@ -123,16 +102,10 @@ void HeldUpdates::take(std::span<const Change> changes) {
   for (const Change& change : changes) {
     assert(change.transition == Transition::entered || change.transition == Transition::left);
     Buffer<Held>& pairs = held_[change.subscriber];
-    Held* const held = find(change.subscriber, change.entity);
+    Held* const held = PairLists<Held>::find(pairs, change.entity);
     assert((held == nullptr) == (change.transition == Transition::entered));
-    if (change.transition == Transition::left) {
-      std::copy(held + 1, pairs.data() + pairs.size(), held);
-      pairs.resize(pairs.size() - 1);
-      continue;
-    }
-    pairs.push_back({change.entity, 0, now_, {}, 0.0, false});
-    for (std::size_t i = pairs.size() - 1; i > 0 && pairs[i].entity < pairs[i - 1].entity; --i)
-      std::swap(pairs[i], pairs[i - 1]);
+    if (held) PairLists<Held>::erase(pairs, held);
+    else PairLists<Held>::insert(pairs, {change.entity, 0, now_, {}, 0.0, false});
   }
 }
 
@@ -181,13 +154,10 @@ void HeldUpdates::list_counts(std::vector<StageCount>& counts) const {
 
 /// Asserts that lists are in order, and that no pair lacks a place or was told in the future.
 void HeldUpdates::check() const {
-  for (const Buffer<Held>& pairs : held_) {
-    for (std::size_t i = 1; i < pairs.size(); ++i) assert(pairs[i - 1].entity < pairs[i].entity);
-    for ([[maybe_unused]] const Held& held : pairs.span()) {
-      assert(held.entity < places_.size() && !places_[held.entity].is_new);
-      assert(held.since <= now_ && !held.is_due && held.way >= 0.0);
-    }
-  }
+  held_.check([this](const Held& held) {
+    return held.entity < places_.size() && !places_[held.entity].is_new && held.since <= now_ &&
+           !held.is_due && held.way >= 0.0;
+  });
 }
 
 }  // namespace rink::im

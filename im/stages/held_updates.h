@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "im/composition/pair_lists.h"
 #include "im/composition/parts.h"
 #include "im/matching/buffer.h"
 
@@ -75,17 +76,16 @@ class HeldUpdates : public Parts {
   /// Counts this match's updates; true if any of the pairs has one.
   bool count_updates(Buffer<Held>& pairs) const;
   void tell(Subscriber subscriber, Buffer<Held>& pairs);
-  Held* find(Subscriber subscriber, Entity entity);
   void check() const;
 
   const char* name_;
   std::uint64_t now_ = 0;  ///< number of the match
   std::vector<Place> places_;
   std::vector<Region> subscriptions_;
-  std::vector<Buffer<Held>> held_;  ///< by subscriber, ascending by entity
-  std::vector<bool> has_untold_;    ///< by subscriber: some pair has updates
-  Buffer<Entity> touched_;          ///< moved or updated since the last match
-  bool is_any_updated_ = false;     ///< at this match
+  PairLists<Held> held_;
+  std::vector<bool> has_untold_;  ///< by subscriber: some pair has updates
+  Buffer<Entity> touched_;        ///< moved or updated since the last match
+  bool is_any_updated_ = false;   ///< at this match
   Buffer<Change> due_;
   std::uint64_t updates_ = 0, told_ = 0;
 };

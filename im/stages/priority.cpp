@@ -13,7 +13,7 @@ namespace {
 
 class Priority final : public Parts {
  public:
-  Priority(std::vector<std::unique_ptr<Filter>> inner, std::size_t budget)
+  Priority(std::unique_ptr<Filter> inner, std::size_t budget)
       : Parts(std::move(inner)), order_(budget) {}
 
   void set_update_region(Entity entity, const Region& region) override {
@@ -61,59 +61,23 @@ void PriorityOrder::place(std::vector<Region>& places, std::uint32_t id, const R
   places[id] = region;
 }
 
-PriorityOrder::Entry* PriorityOrder::find(Subscriber subscriber, Entity entity) {
-  if (subscriber >= entries_.size()) return nullptr;
-  Buffer<Entry>& entries = entries_[subscriber];
-  Entry* const end = entries.data() + entries.size();
-  Entry* const place = std::lower_bound(
-      entries.data(), end, entity, [](const Entry& entry, Entity id) { return entry.entity < id; });
-  return place != end && place->entity == entity ? place : nullptr;
-}
-
-void PriorityOrder::remove_entity(Entity entity) {
-  for (Subscriber subscriber = 0; subscriber < entries_.size(); ++subscriber)
-    if (Entry* const entry = find(subscriber, entity)) {
-      std::copy(entry + 1, entries_[subscriber].data() + entries_[subscriber].size(), entry);
-      entries_[subscriber].resize(entries_[subscriber].size() - 1);
-    }
-}
-
-void PriorityOrder::remove_subscriber(Subscriber subscriber) {
-  if (subscriber < entries_.size()) entries_[subscriber].clear();
-}
-
 void PriorityOrder::take(std::span<const Change> changes) {
   ++now_;
   for (const Change& change : changes) {
-    if (change.subscriber >= entries_.size()) entries_.resize(change.subscriber + std::size_t{1});
-    Buffer<Entry>& entries = entries_[change.subscriber];
-    Entry* const entry = find(change.subscriber, change.entity);
+    Buffer<Entry>& entries = entries_.list_of(change.subscriber);
+    Entry* const entry = PairLists<Entry>::find(entries, change.entity);
     assert((entry == nullptr) == (change.transition == Transition::entered));
     if (change.transition == Transition::due) continue;
-    if (change.transition == Transition::tier_changed) {
-      entry->tier = change.tier;
-    } else if (change.transition == Transition::left) {
-      std::copy(entry + 1, entries.data() + entries.size(), entry);
-      entries.resize(entries.size() - 1);
-    } else {
-      entries.push_back({change.entity, change.tier, true, now_});
-      for (std::size_t i = entries.size() - 1; i > 0 && entries[i].entity < entries[i - 1].entity;
-           --i)
-        std::swap(entries[i], entries[i - 1]);
-    }
+    if (change.transition == Transition::tier_changed) entry->tier = change.tier;
+    else if (entry) PairLists<Entry>::erase(entries, entry);
+    else PairLists<Entry>::insert(entries, {change.entity, change.tier, true, now_});
   }
   if constexpr (checks_whole_structures) check();
 }
 
 void PriorityOrder::check() const {
-  for (const Buffer<Entry>& entries : entries_) {
-    for (std::size_t i = 1; i < entries.size(); ++i)
-      assert(entries[i - 1].entity < entries[i].entity);
-    for ([[maybe_unused]] const Entry& entry : entries.span()) {
-      assert(entry.entity < entities_.size());
-      assert(entry.sent <= now_);
-    }
-  }
+  entries_.check(
+      [this](const Entry& entry) { return entry.entity < entities_.size() && entry.sent <= now_; });
 }
 
 // Halved, as everywhere: the differences of the largest numbers have no double.
@@ -154,7 +118,7 @@ std::span<const PriorityOrder::Item> PriorityOrder::order(Subscriber subscriber)
 }
 
 void PriorityOrder::sent(Subscriber subscriber, const Item& item, std::size_t bytes) {
-  Entry* const entry = find(subscriber, item.entity);
+  Entry* const entry = entries_.find(subscriber, item.entity);
   if (!entry) return;
   ++(entry->is_state ? counts_.states : counts_.updates);
   (entry->is_state ? counts_.state_bytes : counts_.update_bytes) += bytes;
@@ -163,9 +127,7 @@ void PriorityOrder::sent(Subscriber subscriber, const Item& item, std::size_t by
 }
 
 std::unique_ptr<Filter> make_priority(std::unique_ptr<Filter> inner, std::size_t budget) {
-  std::vector<std::unique_ptr<Filter>> parts;
-  parts.push_back(std::move(inner));
-  return std::make_unique<Priority>(std::move(parts), budget);
+  return std::make_unique<Priority>(std::move(inner), budget);
 }
 
 }  // namespace rink::im

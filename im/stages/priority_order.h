@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "im/composition/pair_lists.h"
 #include "im/filter.h"
 #include "im/matching/buffer.h"
 
@@ -61,8 +62,8 @@ class PriorityOrder {
   void place_subscriber(Subscriber subscriber, const Region& region) {
     place(subscribers_, subscriber, region);
   }
-  void remove_entity(Entity entity);
-  void remove_subscriber(Subscriber subscriber);
+  void remove_entity(Entity entity) { entries_.remove_entity(entity); }
+  void remove_subscriber(Subscriber subscriber) { entries_.remove_subscriber(subscriber); }
   void take(std::span<const Change> changes);
   /// Asserts that lists are in order, and that no item lacks a place or was sent in the future.
   void check() const;
@@ -93,12 +94,11 @@ class PriorityOrder {
   double urgency(const Watch& watch, const Entry& entry) const;
   std::size_t gather_states();
   static void place(std::vector<Region>& places, std::uint32_t id, const Region& region);
-  Entry* find(Subscriber subscriber, Entity entity);
 
   std::size_t budget_;
   std::uint64_t now_ = 0;
   std::vector<Region> entities_, subscribers_;
-  std::vector<Buffer<Entry>> entries_;  // by subscriber, ascending
+  PairLists<Entry> entries_;
   Buffer<Ranked> ranked_;
   Buffer<Item> items_, filled_, put_off_;
   PriorityCounts counts_;

@@ -116,7 +116,7 @@ class Flights {
 
 class Swept final : public Parts {
  public:
-  Swept(std::vector<std::unique_ptr<Filter>> inner, double horizon, double drag, bool is_disc)
+  Swept(std::unique_ptr<Filter> inner, double horizon, double drag, bool is_disc)
       : Parts(std::move(inner)), horizon_(horizon), drag_(drag), is_disc_(is_disc) {
     assert(horizon_ >= 0.0 && drag_ >= 0.0);
   }
@@ -220,9 +220,7 @@ class Swept final : public Parts {
 
 std::unique_ptr<Filter> make_swept(std::unique_ptr<Filter> inner, double horizon, double drag,
                                    bool is_disc) {
-  std::vector<std::unique_ptr<Filter>> parts;
-  parts.push_back(std::move(inner));
-  return std::make_unique<Swept>(std::move(parts), horizon, drag, is_disc);
+  return std::make_unique<Swept>(std::move(inner), horizon, drag, is_disc);
 }
 
 }  // namespace rink::im

@@ -91,7 +91,7 @@ SenderInterest::SenderInterest(const std::string& scheme, const im::FilterSettin
                               : reach_of(scheme, settings, extent_max)),
       is_selective_(scheme != "none"),
       remembers_(scheme.find("with") != std::string::npos ||
-                 scheme.find("cone") != std::string::npos || im::names_scheme(scheme, "zones")),
+                 scheme.find("cone") != std::string::npos || filter_->traits().depends_on_crowd),
       sends_trajectories_(policy == "on-event"),
       body_roles_(std::move(roles)),
       is_here_(body_roles_.size(), 0) {
