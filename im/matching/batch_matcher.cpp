@@ -29,7 +29,7 @@ std::optional<Rejection> BatchMatcher::set_world(const Region& world) {
 
 void BatchMatcher::stage(std::span<const Region> regions, Subject subject, BoxIndex& index,
                          std::vector<Rejection>& rejections) const {
-  index.begin(world_, regions.size(), false);
+  index.begin(world_, regions.size(), Boxes::resting);
   for (std::uint32_t id = 0; id < regions.size(); ++id) {
     if (is_valid(regions[id])) index.stage(id, regions[id]);
     else rejections.push_back({*fault_of(regions[id]), subject, id});

@@ -86,7 +86,11 @@ Region with_area(Region world) {
 }  // namespace
 
 ChangeJoin::ChangeJoin(const Region& world, Instructions instructions, Shape shape)
-    : world_(with_area(world)), instructions_(instructions), shape_(shape), join_(instructions) {}
+    : world_(with_area(world)),
+      instructions_(instructions),
+      shape_(shape),
+      join_(instructions),
+      group_join_(instructions) {}
 
 void ChangeJoin::expect(const Region& world) {
   world_ = with_area(world);
@@ -120,7 +124,7 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
 void ChangeJoin::stage(const Side& side) {
   Standing& standing = side.standing;
   BoxIndex& index = standing.swept;
-  index.begin(world_, side.regions.size(), true);
+  index.begin(world_, side.regions.size(), are_grouped_ ? Boxes::moving_for_groups : Boxes::moving);
   if (!standing.is_ordered) {
     for (std::uint32_t id = 0; id < side.regions.size(); ++id)
       if (!is_nowhere(side.regions[id].now)) index.stage(id, side.regions[id]);
@@ -154,6 +158,7 @@ void ChangeJoin::place(const Side& side) {
 void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
   Worker* const worker = for_regions(worker_, entities.regions.size() + subscribers.regions.size());
   const bool is_ordered = subscribers.regions.size() > unordered_subscriber_max;
+  are_grouped_ = is_ordered && shape_ == Shape::rectangle;
   join_.share_with(worker);
   const auto index_entities = [&] { place(entities); };
   const auto index_subscribers = [&] {
@@ -165,11 +170,27 @@ void ChangeJoin::join_everyone(const Side& entities, const Side& subscribers) {
   };
   // Few subscribers are listed sooner than a worker wakes up.
   run_both(is_ordered ? worker : nullptr, index_entities, index_subscribers);
-  if (is_ordered) join(entities.standing.swept, subscribers.standing.swept, entities, subscribers);
+  if (are_grouped_) join_groups(entities, subscribers);
+  else if (is_ordered)
+    join(entities.standing.swept, subscribers.standing.swept, entities, subscribers);
   else join(entities.standing.swept, probes_, entities, subscribers);
-  changes_.add_by_subscriber(join_);
+  // What few movers are looked up in does not follow.
   for (const Side* side : {&entities, &subscribers})
     side->standing.is_live = side->standing.is_live && side->moved.empty();
+}
+
+void ChangeJoin::join_groups(const Side& entities, const Side& subscribers) {
+  const BoxIndex &asked = entities.standing.swept, &askers = subscribers.standing.swept;
+  const ExactMotions exact{subscribers.regions, entities.regions};
+  group_join_.clear();
+  group_join_.share_with(
+      for_regions(worker_, entities.regions.size() + subscribers.regions.size()));
+  group_join_.add_changes(
+      asked, askers,
+      {!(asked.is_exact() && askers.is_exact()), moved_judge(Question::rectangles), &exact});
+  changes_.add_by_subscriber(group_join_.found());
+  changes_.add_by_subscriber(group_join_.found_by_worker());
+  pairs_tested_ += group_join_.candidate_count();
 }
 
 template <class Askers>
@@ -182,6 +203,7 @@ void ChangeJoin::join(const BoxIndex& asked, const Askers& askers, const Side& e
                     {question != Question::rectangles || !(asked.is_exact() && askers.is_exact()),
                      moved_judge(question), &exact},
                     question);
+  changes_.add_by_subscriber(join_);
   pairs_tested_ += join_.candidate_count();
 }
 
@@ -292,7 +314,7 @@ void ChangeJoin::Standing::check([[maybe_unused]] Shape shape) const {
 
 std::size_t ChangeJoin::bytes() const {
   return entities_.bytes() + subscribers_.bytes() + probes_.bytes() + join_.bytes() +
-         answers_.bytes() + other_answers_.bytes() + changes_.bytes();
+         group_join_.bytes() + answers_.bytes() + other_answers_.bytes() + changes_.bytes();
 }
 
 }  // namespace rink::im

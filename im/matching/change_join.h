@@ -7,6 +7,7 @@
 
 #include "im/matching/change_list.h"
 #include "im/matching/disc.h"
+#include "im/matching/group_join.h"
 #include "im/matching/index/box_index.h"
 #include "im/matching/index/line_index.h"
 #include "im/matching/index/live_index.h"
@@ -76,6 +77,7 @@ class ChangeJoin {
   };
   void join_everyone(const Side& entities, const Side& subscribers);
   void join_movers(const Side& entities, const Side& subscribers);
+  void join_groups(const Side& entities, const Side& subscribers);
   void stage(const Side& side);
   void place(const Side& side);
   void list(const Side& movers);
@@ -94,9 +96,11 @@ class ChangeJoin {
   Standing entities_, subscribers_;
   ProbeList probes_;
   Join join_;
+  GroupJoin group_join_;
   LineIndex::Answers answers_, other_answers_;
   ChangeList changes_;
   std::uint64_t pairs_tested_ = 0;
+  bool are_grouped_ = false;  // subscribers ask eight at a time
   Worker* worker_ = nullptr;
 };
 

@@ -29,6 +29,12 @@ inline FloatBox hull_of(const FloatBox& a, const FloatBox& b) {
           std::max(a.high_y, b.high_y)};
 }
 
+/// What is in both; sides are negative where nothing is.
+inline FloatBox core_of(const FloatBox& a, const FloatBox& b) {
+  return {std::max(a.low_x, b.low_x), std::max(a.low_y, b.low_y), std::min(a.high_x, b.high_x),
+          std::min(a.high_y, b.high_y)};
+}
+
 inline float longer_side(const FloatBox& box) {
   return std::max(box.high_x - box.low_x, box.high_y - box.low_y);
 }

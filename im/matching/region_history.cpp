@@ -27,6 +27,7 @@ void RegionHistory::touch(std::uint32_t id) {
 /// The place that it leaves is its former one, if it is the first since the last match.
 void RegionHistory::list(std::uint32_t id) {
   if (is_listed(id)) return;
+  is_ascending_ = is_ascending_ && (moved_.empty() || moved_[moved_.size() - 1] < id);
   moved_.push_back(id);
   listed_[id / 64] |= std::uint64_t{1} << id % 64;
   motions_[id].before = motions_[id].now;
@@ -70,8 +71,7 @@ std::span<const std::uint32_t> RegionHistory::take_moved() {
   settled_.clear();
   if (has_removed_) drop_removed();
   // A caller that moves everything does so in order; then there is nothing to sort.
-  if (!std::is_sorted(moved_.data(), moved_.data() + moved_.size()))
-    std::sort(moved_.data(), moved_.data() + moved_.size());
+  if (!is_ascending_) std::sort(moved_.data(), moved_.data() + moved_.size());
   if constexpr (checks_whole_structures) check();
   return moved_.span();
 }
@@ -83,6 +83,7 @@ void RegionHistory::settle() {
     for (const std::uint32_t id : moved_.span()) unlist(id);
   settled_.clear();
   std::swap(moved_, settled_);
+  is_ascending_ = true;
   if constexpr (checks_whole_structures) check();
 }
 
@@ -92,6 +93,7 @@ void RegionHistory::check() const {
   for (const std::uint64_t word : listed_.span())
     listed += static_cast<std::size_t>(std::popcount(word));
   assert(listed == moved_.size());
+  assert(!is_ascending_ || std::is_sorted(moved_.span().begin(), moved_.span().end()));
   for ([[maybe_unused]] const std::uint32_t id : moved_.span()) {
     assert(is_listed(id));
     assert(has_removed_ || !is_nowhere(motions_[id].now));

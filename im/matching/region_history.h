@@ -91,7 +91,7 @@ class RegionHistory {
   Buffer<std::uint32_t> moved_;
   Buffer<std::uint32_t>
       settled_;  // moved at the match before: their `before` is out of date unless they move again
-  bool has_removed_ = false;
+  bool has_removed_ = false, is_ascending_ = true;  // what is in `moved_`
   std::size_t absent_count_ = 0;  // nearly always 0, and then no new region need be checked for one
 };
 

@@ -21,8 +21,8 @@ constexpr Region unit{0.0, 0.0, 1.0, 1.0};
 
 TEST(ImDeathTest, NamesWhatIsWrongWithBoxesAndTheirWorld) {
   BoxIndex index;
-  EXPECT_DEATH(index.begin({0.0, 0.0, 0.0, 1.0}, 1, false), "low_x < world.high_x");
-  index.begin(unit, 1, false);
+  EXPECT_DEATH(index.begin({0.0, 0.0, 0.0, 1.0}, 1, Boxes::resting), "low_x < world.high_x");
+  index.begin(unit, 1, Boxes::resting);
   index.stage(0, unit);
   EXPECT_DEATH(index.stage(1, unit), "staged_count_ <");
   EXPECT_DEATH(index.stage(1, Motion{unit, unit}), "is_moving_");

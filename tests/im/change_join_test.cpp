@@ -277,7 +277,7 @@ TEST(BoxIndex, KeepsBoxesInTheirCellsWhileTheyAreNear) {
     regions.take_moved();
   };
   tell(0.0);
-  index.begin({0.0, 0.0, side, side}, regions.size(), true);
+  index.begin({0.0, 0.0, side, side}, regions.size(), Boxes::moving);
   for (std::uint32_t id = 0; id < regions.size(); ++id) index.stage(id, regions[id]);
   index.build();
   // 1,000 boxes in 256 square metres, 32 to a square, of which a row has six to the square: columns

@@ -14,7 +14,9 @@ namespace {
 
 /// With more boxes to a square, rows hold too many candidates; with fewer, a question visits too
 /// many rows. Columns are cheap: the cells of a row lie one after the other.
-constexpr CellShape box_cell_shape{32.0, 6.0, 2.0};
+constexpr CellShape cell_shape_for_one{32.0, 6.0, 2.0};
+/// Eight neighbours share a visit: the smaller the squares, the nearer together the eight are.
+constexpr CellShape cell_shape_for_groups{6.0, 3.0, 2.0};
 
 /// Boxes keep their cells until they may be this part of a column away from them: farther, queries
 /// look at so many more that binning anew is cheaper.
@@ -26,17 +28,18 @@ constexpr std::uint32_t follow_max = 100;
 
 }  // namespace
 
-void BoxIndex::begin(const Region& world, std::size_t count_max, bool is_moving) {
+void BoxIndex::begin(const Region& world, std::size_t count_max, Boxes kind) {
   assert(world.low_x < world.high_x && world.low_y < world.high_y);
   assert(is_valid(world) && count_max <= RegionHistory::id_max);
   world_ = world;
   projection_ = Projection(world.low_x, world.low_y);
-  is_moving_ = is_moving;
+  is_moving_ = kind != Boxes::resting;
+  is_for_groups_ = kind == Boxes::moving_for_groups;
   is_exact_ = true;
   sizes_.clear();
   staged_count_ = 0;
   staged_ids_.resize(count_max), staged_now_.resize(count_max);
-  if (is_moving) staged_before_.resize(count_max);
+  if (is_moving_) staged_before_.resize(count_max);
 }
 
 FloatBox BoxIndex::hull(std::size_t staged) const {
@@ -89,7 +92,8 @@ void BoxIndex::sort() {
 }
 
 void BoxIndex::build() {
-  levels_.choose(sizes_, staged_now_.span().first(staged_count_), world_, box_cell_shape);
+  levels_.choose(sizes_, staged_now_.span().first(staged_count_), world_,
+                 is_for_groups_ ? cell_shape_for_groups : cell_shape_for_one);
   count_cells();
   sort();
   follow_count_ = 0;
@@ -162,10 +166,11 @@ std::size_t BoxIndex::find_overlaps(const FloatBox& box, Buffer<Stretch>& stretc
   return candidates;
 }
 
-std::size_t BoxIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
+std::size_t BoxIndex::find_changes(const FloatBox& hull, const FloatBox& core,
+                                   Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
   for (const CellLevel& level : levels_)
-    candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
+    candidates += collect(level, cells_changed(level, hull, core), stretches);
   return candidates;
 }
 

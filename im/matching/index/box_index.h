@@ -17,12 +17,16 @@
 
 namespace rink::im {
 
+/// What is staged, and who asks: boxes that rest, or that move; of these each asker alone, or
+/// neighbours together (group_join.h).
+enum class Boxes : std::uint8_t { resting, moving, moving_for_groups };
+
 /// Stage boxes, then `build`, then ask. A box may be moving: then it is binned by the hull of where
 /// it was and where it is.
 class BoxIndex {
  public:
   /// Starts anew, with room for `count_max` boxes in a world of positive area.
-  void begin(const Region& world, std::size_t count_max, bool is_moving);
+  void begin(const Region& world, std::size_t count_max, Boxes kind);
   /// Adds a resting box.
   void stage(std::uint32_t id, const Region& region);
   /// Adds a box that may have come from elsewhere, or from nowhere.
@@ -52,7 +56,13 @@ class BoxIndex {
   std::size_t find_overlaps(const FloatBox& box, Buffer<Stretch>& stretches) const;
   /// Appends where boxes may have an overlap with `probe` that changed; returns how many. Cells
   /// well inside both its places hold none.
-  std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
+  std::size_t find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
+    return find_changes(hull_of(probe.before, probe.now), core_of(probe.before, probe.now),
+                        stretches);
+  }
+  /// As above for several probes, all of whose places are within `hull` and hold `core`.
+  std::size_t find_changes(const FloatBox& hull, const FloatBox& core,
+                           Buffer<Stretch>& stretches) const;
   /// As above for a query about the probe's disc.
   std::size_t find_disc_changes(const Probe& probe, Buffer<Stretch>& stretches) const;
 
@@ -73,7 +83,7 @@ class BoxIndex {
 
   Region world_;
   Projection projection_;
-  bool is_moving_ = false, is_exact_ = true;
+  bool is_moving_ = false, is_for_groups_ = false, is_exact_ = true;
   SizeLevels sizes_;
   CellLevels levels_;
   std::uint32_t follow_count_ = 0;  // since it was built

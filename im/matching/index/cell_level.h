@@ -163,16 +163,13 @@ inline CellQuery cells_touched(const CellLevel& level, const FloatBox& box) {
   return {level.x.touched(box.low_x, box.high_x), level.y.touched(box.low_y, box.high_y)};
 }
 
-/// Where boxes may have an overlap that changed, of one who was at `before` and is at `now`. Boxes
-/// well inside both overlap then and now.
-inline CellQuery cells_changed(const CellLevel& level, const FloatBox& before,
-                               const FloatBox& now) {
-  CellQuery query = cells_touched(level, hull_of(before, now));
+/// Where boxes may have an overlap that changed, of those whose places then and now are all within
+/// `hull` and all hold `core`. Boxes well inside of that overlap then and now.
+inline CellQuery cells_changed(const CellLevel& level, const FloatBox& hull, const FloatBox& core) {
+  CellQuery query = cells_touched(level, hull);
   if (level.has_newcomers) return query;
-  query.inner_columns =
-      level.x.within(std::max(before.low_x, now.low_x), std::min(before.high_x, now.high_x));
-  query.inner_rows =
-      level.y.within(std::max(before.low_y, now.low_y), std::min(before.high_y, now.high_y));
+  query.inner_columns = level.x.within(core.low_x, core.high_x);
+  query.inner_rows = level.y.within(core.low_y, core.high_y);
   return query;
 }
 

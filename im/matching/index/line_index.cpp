@@ -202,7 +202,7 @@ CellQuery LineIndex::query(const CellLevel& level, const Probe& probe) const {
   const CellAxis &x = level.x, &y = level.y;
   if (!level.has_newcomers && probe.now.high_x - probe.now.low_x > x.widest &&
       probe.now.high_y - probe.now.low_y > y.widest)
-    return cells_changed(level, probe.before, probe.now);
+    return cells_changed(level, hull_of(probe.before, probe.now), core_of(probe.before, probe.now));
   const auto before = std::bit_cast<FourFloats>(probe.before),
              now = std::bit_cast<FourFloats>(probe.now);
   const FourInts is_less = before < now, takes_before = is_less ^ FourInts { 0, 0, -1, -1 };

@@ -223,7 +223,10 @@ std::size_t LiveIndex::collect(const CellLevel& level, const Query& query,
 std::size_t LiveIndex::find_changes(const Probe& probe, Buffer<Stretch>& stretches) const {
   std::size_t candidates = 0;
   for (const CellLevel& level : levels_)
-    candidates += collect(level, cells_changed(level, probe.before, probe.now), stretches);
+    candidates += collect(
+        level,
+        cells_changed(level, hull_of(probe.before, probe.now), core_of(probe.before, probe.now)),
+        stretches);
   return candidates;
 }
 

@@ -70,6 +70,23 @@ struct ScanOutput {
 using Scan = std::size_t (*)(const Candidates& candidates, const ProbeBlock& block,
                              const TieJudge& judge, const ScanOutput& output);
 
+/// Up to eight askers, each with two places, in columns.
+struct AskerGroup {
+  const Candidates& askers;
+  std::size_t first, count;
+};
+
+struct GroupOutput {
+  std::uint64_t* work;   ///< room for two numbers per eight candidates, and two more
+  std::uint64_t* found;  ///< the asker's id, and below it the found id with `entered_bit`; has room
+                         ///< for all pairs
+};
+
+/// All askers look at all stretches. Returns the number of matches, those of `changes`.
+using GroupScan = std::size_t (*)(const Candidates& candidates, std::span<const Stretch> stretches,
+                                  const AskerGroup& group, const TieJudge& judge,
+                                  const GroupOutput& output);
+
 /// What is asked about two boxes: whether they overlap, or whether one touches the disc that the
 /// other holds (disc.h): the asker's disc, or the candidate's.
 enum class Question : std::uint8_t { rectangles, of_discs, about_discs };
@@ -81,6 +98,7 @@ struct Scans {
   Scan changes_of_discs,
       changes_about_discs;  ///< the same for discs; the judge must decide exactly, for it is asked
                             ///< wherever distances are in doubt
+  GroupScan changes_of_group;  ///< as `changes`, several askers at a time
   const char* name;
 };
 

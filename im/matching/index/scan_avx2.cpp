@@ -145,6 +145,103 @@ RINK_AVX2 std::size_t scan_changes(const Candidates& candidates, const ProbeBloc
   return count;
 }
 
+RINK_AVX2 inline WideBox load(const BoxColumns& boxes, std::size_t i) {
+  return {_mm256_loadu_ps(boxes.low_x + i), _mm256_loadu_ps(boxes.low_y + i),
+          _mm256_loadu_ps(boxes.high_x + i), _mm256_loadu_ps(boxes.high_y + i)};
+}
+
+/// One box against an asker in each lane.
+RINK_AVX2 inline __m256 clearance(const WideBox& askers, const BoxColumns& boxes, std::size_t i) {
+  const __m256 x =
+      _mm256_min_ps(_mm256_sub_ps(askers.high_x, _mm256_broadcast_ss(boxes.low_x + i)),
+                    _mm256_sub_ps(_mm256_broadcast_ss(boxes.high_x + i), askers.low_x));
+  const __m256 y =
+      _mm256_min_ps(_mm256_sub_ps(askers.high_y, _mm256_broadcast_ss(boxes.low_y + i)),
+                    _mm256_sub_ps(_mm256_broadcast_ss(boxes.high_y + i), askers.low_y));
+  return _mm256_min_ps(x, y);
+}
+
+/// Eight askers, and the boxes that they look at.
+struct Meeting {
+  WideBox before, now;
+  BoxColumns boxes_before, boxes_now;
+};
+
+/// Marks of boxes, a byte for each and in it a bit for each asker.
+struct Marks {
+  std::uint8_t *suspects, *apart;
+};
+
+/// Marks those whose overlap may have changed, and those that do not overlap now. Returns whether
+/// any tie, which only then are suspects if they have not changed. There is no branch on what is
+/// seen.
+RINK_AVX2 inline bool mark(const Meeting& meeting, const Stretch& stretch, const Marks& marks) {
+  const auto [before, now, boxes_before, boxes_now] = meeting;
+  const auto [suspects, apart] = marks;
+  __m256i least = _mm256_set1_epi32(-1);
+  for (std::size_t i = stretch.first, k = 0; i < stretch.end; ++i, ++k) {
+    const __m256 then = clearance(before, boxes_before, i), today = clearance(now, boxes_now, i);
+    // Zero is the least of numbers without sign.
+    least = _mm256_min_epu32(
+        least, _mm256_min_epu32(_mm256_castps_si256(then), _mm256_castps_si256(today)));
+    suspects[k] = static_cast<std::uint8_t>(_mm256_movemask_ps(_mm256_xor_ps(then, today)));
+    apart[k] = static_cast<std::uint8_t>(_mm256_movemask_ps(today));
+  }
+  return _mm256_movemask_epi8(_mm256_cmpeq_epi32(least, _mm256_setzero_si256())) != 0;
+}
+
+/// Adds those that tie to the suspects.
+[[gnu::noinline]] RINK_AVX2 void mark_ties(const Meeting& meeting, const Stretch& stretch,
+                                           std::uint8_t* suspects) {
+  for (std::size_t i = stretch.first, k = 0; i < stretch.end; ++i, ++k)
+    suspects[k] = static_cast<std::uint8_t>(
+        suspects[k] | ties(clearance(meeting.before, meeting.boxes_before, i)) |
+        ties(clearance(meeting.now, meeting.boxes_now, i)));
+}
+
+/// True if one of the four differences of box `i` of `some` and box `k` of `others` is zero, and
+/// none is negative.
+bool is_tie(const BoxColumns& some, std::size_t i, const BoxColumns& others, std::size_t k) {
+  return std::min(std::min(some.high_x[i] - others.low_x[k], others.high_x[k] - some.low_x[i]),
+                  std::min(some.high_y[i] - others.low_y[k], others.high_y[k] - some.low_y[i])) ==
+         0.0f;
+}
+
+RINK_AVX2 std::size_t scan_group(const Candidates& candidates, std::span<const Stretch> stretches,
+                                 const AskerGroup& group, const TieJudge& judge,
+                                 const GroupOutput& output) {
+  const auto& [askers, first, asker_count] = group;
+  const Meeting meeting{load(askers.before, first), load(askers.now, first), candidates.before,
+                        candidates.now};
+  const std::uint64_t valid = 0x0101010101010101u * lanes(asker_count);
+  std::size_t count = 0;
+  for (const Stretch& stretch : stretches) {
+    const std::size_t words = (stretch.end - stretch.first + 7) / 8;
+    std::uint64_t* const suspects = output.work;
+    std::uint64_t* const apart = output.work + words;
+    suspects[words - 1] = 0;
+    const Marks marks{reinterpret_cast<std::uint8_t*>(suspects),
+                      reinterpret_cast<std::uint8_t*>(apart)};
+    const bool has_ties = mark(meeting, stretch, marks) && judge.is_needed;
+    if (has_ties) mark_ties(meeting, stretch, marks.suspects);
+    for (std::size_t w = 0; w < words; ++w)
+      for (std::uint64_t rest = suspects[w] & valid; rest != 0; rest &= rest - 1) {
+        const auto bit = static_cast<unsigned>(__builtin_ctzll(rest));
+        const std::size_t i = stretch.first + 8 * w + bit / 8, asker = first + bit % 8;
+        bool is_entered = (apart[w] >> bit & 1u) == 0;
+        if (has_ties && (is_tie(askers.before, asker, candidates.before, i) ||
+                         is_tie(askers.now, asker, candidates.now, i))) {
+          const Verdict verdict = judge(askers.ids[asker], candidates.ids[i]);
+          if (verdict == Verdict::no) continue;
+          is_entered = verdict == Verdict::entered;
+        }
+        output.found[count++] = std::uint64_t{askers.ids[asker]} << 32 | candidates.ids[i] |
+                                (is_entered ? entered_bit : 0u);
+      }
+  }
+  return count;
+}
+
 /// In which lanes the box touches the disc, and in which that is in doubt; the sign bits count.
 struct Nearness {
   __m256 inside, doubtful;
@@ -189,11 +286,6 @@ RINK_AVX2 inline Nearness nearness(const WideBox& disc, const WideBox& box) {
           _mm256_andnot_ps(is_clear, is_somewhere)};
 }
 
-RINK_AVX2 inline WideBox load(const BoxColumns& boxes, std::size_t i) {
-  return {_mm256_loadu_ps(boxes.low_x + i), _mm256_loadu_ps(boxes.low_y + i),
-          _mm256_loadu_ps(boxes.high_x + i), _mm256_loadu_ps(boxes.high_y + i)};
-}
-
 template <bool is_of_askers>
 RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, const ProbeBlock& block,
                                  const TieJudge& judge, const ScanOutput& output) {
@@ -226,8 +318,8 @@ RINK_AVX2 std::size_t scan_discs(const Candidates& candidates, const ProbeBlock&
   return count;
 }
 
-constexpr Scans wide_scans{scan_overlaps, scan_changes, scan_discs<true>, scan_discs<false>,
-                           "avx2"};
+constexpr Scans wide_scans{scan_overlaps,     scan_changes, scan_discs<true>,
+                           scan_discs<false>, scan_group,   "avx2"};
 
 }  // namespace
 

@@ -9,6 +9,10 @@
 namespace rink::im {
 namespace {
 
+inline FloatBox box_at(const BoxColumns& boxes, std::size_t i) {
+  return {boxes.low_x[i], boxes.low_y[i], boxes.high_x[i], boxes.high_y[i]};
+}
+
 /// The smallest of the four differences that must not be negative in an overlap.
 inline float clearance(const BoxColumns& boxes, std::size_t i, const FloatBox& probe) {
   const float x = std::min(probe.high_x - boxes.low_x[i], boxes.high_x[i] - probe.low_x),
@@ -65,6 +69,27 @@ std::size_t scan_changes(const Candidates& candidates, const ProbeBlock& block,
   });
 }
 
+std::size_t scan_group(const Candidates& candidates, std::span<const Stretch> stretches,
+                       const AskerGroup& group, const TieJudge& judge, const GroupOutput& output) {
+  std::size_t count = 0;
+  const auto& [askers, first, asker_count] = group;
+  for (const Stretch& stretch : stretches)
+    for (std::size_t i = stretch.first; i < stretch.end; ++i)
+      for (std::size_t asker = first; asker < first + asker_count; ++asker) {
+        const float before = clearance(candidates.before, i, box_at(askers.before, asker)),
+                    now = clearance(candidates.now, i, box_at(askers.now, asker));
+        bool is_match = (before >= 0.0f) != (now >= 0.0f), is_entered = now >= 0.0f;
+        if (judge.is_needed && (before == 0.0f || now == 0.0f)) {
+          const Verdict verdict = judge(askers.ids[asker], candidates.ids[i]);
+          is_match = verdict != Verdict::no, is_entered = verdict == Verdict::entered;
+        }
+        output.found[count] = std::uint64_t{askers.ids[asker]} << 32 | candidates.ids[i] |
+                              (is_entered ? entered_bit : 0u);
+        count += is_match;
+      }
+  return count;
+}
+
 struct Nearness {
   bool is_inside, is_doubtful;
 };
@@ -89,10 +114,6 @@ inline Nearness nearness(const FloatBox& disc, const FloatBox& box) {
           is_somewhere && !(std::abs(excess) > error && size < disc_size_max)};
 }
 
-inline FloatBox box_at(const BoxColumns& boxes, std::size_t i) {
-  return {boxes.low_x[i], boxes.low_y[i], boxes.high_x[i], boxes.high_y[i]};
-}
-
 template <bool is_of_askers>
 std::size_t scan_discs(const Candidates& candidates, const ProbeBlock& block, const TieJudge& judge,
                        const ScanOutput& output) {
@@ -108,8 +129,8 @@ std::size_t scan_discs(const Candidates& candidates, const ProbeBlock& block, co
 
 }  // namespace
 
-const Scans scalar_scans{scan_overlaps, scan_changes, scan_discs<true>, scan_discs<false>,
-                         "scalar"};
+const Scans scalar_scans{scan_overlaps,     scan_changes, scan_discs<true>,
+                         scan_discs<false>, scan_group,   "scalar"};
 
 const Scans& scans(Instructions instructions) {
   static const bool has_avx2 = [] {
