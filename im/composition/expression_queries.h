@@ -16,6 +16,12 @@ inline bool is_rank(const Expression& expression) {
           expression.name == "von");
 }
 
+/// True of the stages that compare all relevant entities of a subscriber by where they are.
+inline bool chooses(const Expression& expression) {
+  return is_rank(expression) ||
+         (expression.kind == Expression::Kind::stage && expression.name == "donnybrook");
+}
+
 /// True of the stages that hold updates of relevant pairs back.
 inline bool holds_updates(const Expression& expression) {
   return expression.kind == Expression::Kind::stage &&

@@ -217,6 +217,9 @@ std::string judge_own(const Expression& expression, Expression::Place* place = n
              ": which are first anywhere on the way is not known";
     if (expression.name == "swept" && first_part(expression, is_zones))
       return "swept cannot follow zones: which zones there will be on the way is not known";
+    if (chooses(expression) && swept_in(expression))
+      return expression.name +
+             " cannot follow swept: of an entity in flight it would take where the flight began";
     if (holds_updates(expression) && swept_in(expression))
       return expression.name +
              " cannot follow swept: how far an entity in flight is from what was "

@@ -155,6 +155,7 @@ class Swept final : public Parts {
   void set_time(double now) override {
     assert(std::isfinite(now) && now >= now_);
     now_ = now;
+    Parts::set_time(now);
   }
 
   std::span<const Change> match() override {

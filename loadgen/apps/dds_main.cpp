@@ -108,7 +108,13 @@ ExitStatus ended(const loadgen::DdsEnding& ending) {
   return ending.is_alone ? ExitStatus::nobody_came : ExitStatus::connection_lost;
 }
 
+void require_something_to_measure(const Options& options) {
+  if (options.warm_up_s >= options.duration_s)
+    throw game::FlagError("--warm-up", "is not less than --duration: nothing would be measured");
+}
+
 ExitStatus serve(Options& options) {
+  require_something_to_measure(options);
   loadgen::DdsServeOptions& serve = options.serve;
   serve.domain = options.domain, serve.keys = options.keys, serve.seed = options.seed;
   serve.report = options.report, serve.trace = options.trace;
@@ -121,6 +127,7 @@ ExitStatus serve(Options& options) {
 }
 
 ExitStatus play(Options& options) {
+  require_something_to_measure(options);
   loadgen::DdsBotsOptions& bots = options.bots;
   if (!options.domain) throw game::FlagError("--domain", "is missing: that of the server");
   bots.domain = *options.domain, bots.plan = options.keys, bots.seed = options.seed;

@@ -62,6 +62,7 @@ DdsEnding play_by_dds(const DdsBotsOptions& options, const DdsClock& now_s) {
   const double give_up_s = now_s() + options.patience_s;
   while (!game::is_interrupted && !crowd.is_over() && (crowd.has_started() || now_s() < give_up_s))
     crowd.run_once();
+  crowd.end();
   DdsEnding ending;
   if (crowd.is_left()) ending.error = "the server left the domain";
   else if (!crowd.has_started() && !game::is_interrupted)

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include <dds/dds.h>
 #include <topics.h>
@@ -50,8 +52,15 @@ void DdsBot::take_session() {
   dds_sample_info_t info;
   while (require(dds_take(sessions_.own, &place, &info, 1, 1), "taking the session") == 1) {
     const auto& said = *static_cast<const rink_dds_Session*>(place);
-    if (info.valid_data && number_ < said.seats._length) {
+    if (info.valid_data) {
+      if (number_ >= said.seats._length) {
+        const std::string seats = std::to_string(said.seats._length);
+        dds_return_loan(sessions_.own, &place, 1);
+        throw DdsError("bot " + std::to_string(number_ + 1) + " has no seat: the game has " +
+                       seats + "; expected a --count of at most that");
+      }
       DdsSession session;
+      session.seats = said.seats._length;
       if (said.origin_ns > 0) session.origin_s = 1e-9 * static_cast<double>(said.origin_ns);
       session.begin_s = said.begin_s, session.rate_hz = said.rate_hz;
       session.cell_size = said.cell_size, session.extent = said.extent;
@@ -88,12 +97,37 @@ void DdsBot::take_states(const Reader& reader) {
         if (is_new) listener_.scope_changed(*this, state.body, true);
         listener_.state_came(*this, state.body, stamp_ns);
       }
-      if (infos[k].instance_state != DDS_IST_ALIVE && replica.is_known &&
-          replica.cell == reader.cell)
-        forget(state.body);
+      if (infos[k].instance_state != DDS_IST_ALIVE)
+        left_.push_back({state.body, reader.cell, stamp_ns});
     }
     if (count < most) return;
   }
+}
+
+/// Who crosses is written in its new cell first, but readers are asked in no such order: so they
+/// are asked once more before a body that left is let go. What leaves meanwhile waits.
+void DdsBot::settle() {
+  if (!left_.empty()) {
+    const std::vector<Left> left = std::exchange(left_, {});
+    for (const Reader& reader : readers_) take_states(reader);
+    for (const Left& each : left) {
+      const DdsReplica& replica = replicas_[each.body];
+      const bool is_back = replica.stamp_ns > each.stamp_ns;
+      if (replica.is_known && replica.cell == each.cell && !is_back) forget(each.body);
+    }
+  }
+  forget_silent();
+}
+
+/// All bodies in the cells that are read are written at each tick, so who is silent for long has
+/// left, and the word of it was lost.
+void DdsBot::forget_silent() {
+  constexpr auto lost_after_ns = static_cast<std::int64_t>(1e9 * lost_after_s);
+  if (newest_ns_ - swept_ns_ < lost_after_ns / 2) return;
+  swept_ns_ = newest_ns_;
+  for (std::uint32_t body = 0; body < replicas_.size(); ++body)
+    if (replicas_[body].is_known && newest_ns_ - replicas_[body].stamp_ns > lost_after_ns)
+      forget(body);
 }
 
 void DdsBot::forget(std::uint32_t body) {

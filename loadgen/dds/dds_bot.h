@@ -32,6 +32,7 @@ struct DdsReplica {
 struct DdsSession {
   std::optional<double> origin_s;  ///< of the machine's clock when the game begins, once it does
   double begin_s = 0.0, rate_hz = 1.0, cell_size = 0.0, extent = 0.0;
+  std::uint32_t seats = 0;  ///< players of the game
   im::Region field;
   bool is_over = false;
   std::uint32_t body = 0;  ///< of the bot's bat
@@ -69,8 +70,11 @@ class DdsBot {
   std::uint64_t cells_joined() const { return cells_joined_; }
   std::size_t cells_read() const { return readers_.size(); }
 
-  /// Takes what `reader` has.
+  /// Takes what `reader` has. Throws DdsError if the bot has no seat in the game.
   void take(DdsEntity reader);
+  /// Lets bodies go that left their cells and came in no other, and those not heard of for long.
+  /// To be called when all readers that have something were asked, in any order.
+  void settle();
   /// Reads the cells around the bat where that has moved far enough, or was lost, at `now_s` on the
   /// clock.
   void follow(double now_s);
@@ -84,6 +88,11 @@ class DdsBot {
     std::uint32_t cell = 0;
     Endpoint endpoint;
   };
+  /// A body that is no longer written in a cell.
+  struct Left {
+    std::uint32_t body = 0, cell = 0;
+    std::int64_t stamp_ns = 0;  ///< of the tick at which it had left
+  };
 
   void take_session();
   void take_states(const Reader& reader);
@@ -91,6 +100,7 @@ class DdsBot {
   void attach(DdsEntity reader) const;
   void forget(std::uint32_t body);
   void forget_cell(std::uint32_t cell);
+  void forget_silent();
   double half_side() const;
 
   const DdsBotsOptions& options_;
@@ -104,6 +114,8 @@ class DdsBot {
   game::FollowingView view_;
   std::vector<Reader> readers_;  ///< ascending by cell
   std::vector<DdsReplica> replicas_;
+  std::vector<Left> left_;      ///< since the bot settled last
+  std::int64_t swept_ns_ = -1;  ///< newest stamp when those not heard of were let go last
   std::int64_t newest_ns_ = -1;
   std::uint64_t states_ = 0, cells_joined_ = 0;
   double bat_seen_s_ = 0.0;

@@ -58,6 +58,10 @@ void DdsCrowd::run_once() {
   for (std::size_t k = 0; k < present; ++k) {
     DdsBot& bot = *bots_[DdsBot::bot_of(triggered_[k])];
     bot.take(DdsBot::reader_of(triggered_[k]));
+  }
+  for (std::size_t k = 0; k < present; ++k) {
+    DdsBot& bot = *bots_[DdsBot::bot_of(triggered_[k])];
+    bot.settle();
     bot.follow(now_s_());
   }
   start_when_said();
@@ -67,9 +71,17 @@ void DdsCrowd::run_once() {
   if (const double now = now_s_(); now >= looked_s_ + 0.02) {
     looked_s_ = now;
     for (const auto& bot : bots_) bot->follow(now), bot->say_ready();
-    is_left_ = origin_s_ && !bots_.front()->is_server_there();
-    is_over_ = is_over_ || is_left_;
+    if (is_over_ || !origin_s_) return;
+    is_left_ = !bots_.front()->is_server_there();
+    if (is_left_ || bots_.front()->session()->is_over) end_span();
   }
+}
+
+void DdsCrowd::end_span() {
+  assert(!is_over_);
+  if (measured_from_s_) span_s_ = now_s_() - *measured_from_s_, end_ = counted();
+  else begin_ = end_ = counted();  // there is nothing to count yet
+  is_over_ = true;
 }
 
 void DdsCrowd::start_when_said() {
@@ -78,6 +90,9 @@ void DdsCrowd::start_when_said() {
     if (!bot->session() || !bot->session()->origin_s) continue;
     origin_s_ = bot->session()->origin_s;
     begin_s_ = bot->session()->begin_s;
+    if (std::abs(begin_s_ - options_.start_s) > 1.0 / bot->session()->rate_hz)
+      throw DdsError("the game begins at " + std::to_string(begin_s_) + " s, not at " +
+                     std::to_string(options_.start_s) + " s; expected that as --start");
     return;
   }
 }
@@ -93,9 +108,7 @@ void DdsCrowd::measure_span() {
   if (!origin_s_ || is_over_) return;
   const double now = simulated_s();
   if (!measured_from_s_ && now >= measured_.from_s) measured_from_s_ = now_s_(), begin_ = counted();
-  if (now < measured_.until_s) return;
-  if (measured_from_s_) span_s_ = now_s_() - *measured_from_s_, end_ = counted();
-  is_over_ = true;
+  if (now >= measured_.until_s) end_span();
 }
 
 void DdsCrowd::press_due_keys() {
@@ -125,6 +138,7 @@ void DdsCrowd::scope_changed(const DdsBot& bot, std::uint32_t body, bool is_in) 
 
 nlohmann::ordered_json DdsCrowd::report(const std::string& why_invalid) const {
   namespace report = game::report;
+  assert(is_over_);
   const RtpsTraffic sent = end_.sent - begin_.sent, received = end_.received - begin_.received;
   std::vector<std::uint64_t> bytes_by_bot;
   std::uint64_t states = 0, cells_joined = 0, cells_read = 0;

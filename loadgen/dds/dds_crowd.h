@@ -59,10 +59,14 @@ class DdsCrowd : private DdsBot::Listener {
   /// Handles what came, waiting for it no longer than until something is due.
   void run_once();
   bool has_started() const { return origin_s_.has_value(); }
-  /// True when the duration has passed, or the server has gone (`is_left`).
+  /// True when the duration has passed, the server says so, or it has gone (`is_left`).
   bool is_over() const { return is_over_; }
   bool is_left() const { return is_left_; }
 
+  /// Closes what is measured, if nothing else did.
+  void end() {
+    if (!is_over_) end_span();
+  }
   nlohmann::ordered_json report(const std::string& why_invalid) const;
   game::BotsTrace trace() const { return recorder_.trace(bots_); }
   const Measurements& measurements() const { return measured_; }
@@ -82,6 +86,7 @@ class DdsCrowd : private DdsBot::Listener {
   double next_due_s() const;
   void start_when_said();
   void measure_span();
+  void end_span();
   void press_due_keys();
   Counted counted() const;
 

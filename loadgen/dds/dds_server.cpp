@@ -141,10 +141,18 @@ DdsServer::Counted DdsServer::counted() const {
 }
 
 /// A reader that its process took along, or whose lease ran out, is no longer matched.
-void DdsServer::count_present() {
+std::uint32_t DdsServer::present_count() const {
   dds_subscription_matched_status_t matched;
   require(dds_get_subscription_matched_status(inputs_.own, &matched), "counting bots");
-  lost_ = std::max(lost_, options_.clients - std::min(options_.clients, matched.current_count));
+  return std::min(options_.clients, matched.current_count);
+}
+
+/// Bots leave by the clock, so who is gone when the game's time is up was not lost.
+void DdsServer::count_present() {
+  const double end_s =
+      start_s_ + std::floor(options_.duration_s * options_.rate_hz + 1e-9) / options_.rate_hz;
+  const std::uint32_t present = present_count();
+  if (now_s_() < end_s) lost_ = std::max(lost_, options_.clients - present);
 }
 
 void DdsServer::run() {
@@ -161,15 +169,44 @@ void DdsServer::run() {
   for (std::uint64_t number = 0; number <= last && !game::is_interrupted; ++number) {
     hear_until(start_s_ + static_cast<double>(number) / options_.rate_hz);
     if (game::is_interrupted) break;
+    const std::uint64_t left_out = ticks_left_out(number, last);
+    if (is_measuring) costs_.left_out += left_out;
+    number += left_out;
     if (!is_measuring && static_cast<double>(number) / options_.rate_hz >= options_.warm_up_s)
-      is_measuring = true, costs_.from_s = now_s_(), costs_.begin = counted();
+      is_measuring = true, costs_.from_s = now_s_(), costs_.begin = costs_.end = counted();
     // The last tick closes the span and is not in it.
-    if (number == last && is_measuring)
-      costs_.span_s = now_s_() - costs_.from_s, costs_.end = counted(), count_present();
+    if (number == last && is_measuring) end_span();
     tick(number, is_measuring && number < last);
+    if (number < last) count_present();
   }
+  if (is_measuring && costs_.span_s == 0.0) end_span();
   recorder_.end(game_.hash());
+  if (game::is_interrupted) return;  // bots see that the server goes
   say_session(start_s_, true);
+  bid_farewell();
+}
+
+/// Of a server that is late: those up to now where it is more than a second behind, and all but the
+/// last when the game's time is up.
+std::uint64_t DdsServer::ticks_left_out(std::uint64_t number, std::uint64_t last) const {
+  assert(number <= last);
+  const double behind_s = now_s_() - start_s_ - static_cast<double>(number) / options_.rate_hz,
+               over_s = now_s_() - start_s_ - static_cast<double>(last) / options_.rate_hz;
+  if (over_s >= 0.0) return last - number;
+  return behind_s > 1.0 ? static_cast<std::uint64_t>(behind_s * options_.rate_hz) : 0;
+}
+
+void DdsServer::end_span() { costs_.span_s = now_s_() - costs_.from_s, costs_.end = counted(); }
+
+/// Waits until the bots know that the game is over and have gone.
+void DdsServer::bid_farewell() {
+  constexpr double longest_s = 2.0;
+  const double give_up_s = now_s_() + longest_s;
+  for (std::uint32_t present = options_.clients; present > 0 && now_s_() < give_up_s;) {
+    if (game::is_interrupted) return;
+    hear_until(now_s_() + 0.005);
+    present = present_count();
+  }
 }
 
 void DdsServer::tick(std::uint64_t number, bool is_counted) {

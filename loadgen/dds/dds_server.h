@@ -67,14 +67,18 @@ class DdsServer {
   };
   struct Costs {
     double physics_s = 0.0, filter_s = 0.0, send_s = 0.0, from_s = 0.0, span_s = 0.0;
-    std::uint64_t ticks = 0, on_time = 0;
+    std::uint64_t ticks = 0, on_time = 0, left_out = 0;
     Counted begin, end;
   };
 
   void say_session(double origin_s, bool is_over);
   void hear_until(double until_s);
   void hear();
+  std::uint32_t present_count() const;
   void count_present();
+  std::uint64_t ticks_left_out(std::uint64_t number, std::uint64_t last) const;
+  void end_span();
+  void bid_farewell();
   void tick(std::uint64_t number, bool is_counted);
   Counted counted() const;
 

@@ -22,6 +22,9 @@ enum Submessage : std::uint8_t {
   data_fragment = 0x16
 };
 
+/// Flag of `data`; without it a writer says that it no longer writes an instance.
+constexpr std::uint8_t has_value = 0x04;
+
 constexpr std::size_t message_header = 20, submessage_header = 4;
 
 bool is_data(std::uint8_t kind) { return kind == data || kind == data_fragment; }
@@ -65,7 +68,10 @@ RtpsTraffic traffic_of(std::span<const std::uint8_t> message) {
     if (place_of_writer(kind) > 0 && writer + 4 <= message.size()) {
       const bool is_built_in = (message[writer + 3] & 0xc0) == 0xc0;
       if (is_built_in) traffic.discovery_bytes += whole + time_stamp;
-      else if (is_data(kind)) traffic.data_bytes += whole + time_stamp, ++traffic.samples;
+      else if (is_data(kind)) {
+        traffic.data_bytes += whole + time_stamp;
+        if (kind != data || (message[at + 1] & has_value) != 0) ++traffic.samples;
+      }
       time_stamp = 0;
     }
     at += whole;

@@ -14,7 +14,7 @@ struct RtpsTraffic {
   std::uint64_t packets = 0;     ///< of at most 1,500 bytes, as Ethernet would carry the messages
   std::uint64_t data_bytes = 0;  ///< of submessages with users' samples, their time stamps too
   std::uint64_t discovery_bytes = 0;  ///< of submessages from and to built-in endpoints
-  std::uint64_t samples = 0;          ///< of users
+  std::uint64_t samples = 0;          ///< of users, values of instances
 
   friend RtpsTraffic operator-(RtpsTraffic a, const RtpsTraffic& b) {
     a.messages -= b.messages, a.bytes -= b.bytes, a.headers -= b.headers, a.packets -= b.packets;

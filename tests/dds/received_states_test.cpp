@@ -34,11 +34,20 @@ class Notes : public DdsBot::Listener {
   void scope_changed(const DdsBot& bot, std::uint32_t body, bool is_in) override {
     auto& known = of_bot_known[bot.number()];
     EXPECT_EQ(known.contains(body), !is_in) << "comes and goes by turns";
-    if (is_in) known.insert(body);
-    else known.erase(body);
+    auto& left_at = of_bot_left[bot.number()];
+    if (is_in) {
+      known.insert(body);
+      const auto left = left_at.find(body);
+      flaps += left != left_at.end() && left->second == bot.newest_ns() ? 1 : 0;
+    } else {
+      known.erase(body);
+      left_at[body] = bot.newest_ns();
+    }
   }
   std::map<std::uint32_t, Ticks> of_bot;
   std::map<std::uint32_t, std::set<std::uint32_t>> of_bot_known;
+  std::map<std::uint32_t, std::map<std::uint32_t, std::int64_t>> of_bot_left;  ///< when
+  int flaps = 0;  ///< bodies that came back within the tick at which they left
 };
 
 class ReceivedStates : public testing::Test {
@@ -79,6 +88,7 @@ class ReceivedStates : public testing::Test {
         const auto each = which[static_cast<std::size_t>(k)];
         bots[DdsBot::bot_of(each)]->take(DdsBot::reader_of(each));
       }
+      for (const auto& bot : bots) bot->settle();
       for (const auto& bot : bots) bot->follow(clock_s()), bot->say_ready();
     };
     while (!is_done) look();
@@ -163,6 +173,16 @@ TEST_F(ReceivedStates, FollowABatThatMoves) {
         const physics::Vector2 apart = game.position(body) - game.position(*game.bat(bot));
         return apart.cwiseAbs().maxCoeff() <= 1.0;  // the view
       });
+}
+
+/// However readers are asked, a body that goes from a cell that a bot reads to another stays known.
+TEST_F(ReceivedStates, StayKnownAcrossTheBordersOfCellsThatAreRead) {
+  cell_size_ = 0.8;
+  play(played(false));  // bats at rest, whose cells stay the same
+  std::size_t comers = 0;
+  for (const auto& [bot, known] : notes_.of_bot_known) comers += known.size();
+  EXPECT_GT(comers, 10u);
+  EXPECT_EQ(notes_.flaps, 0);
 }
 
 }  // namespace

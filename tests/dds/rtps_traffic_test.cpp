@@ -18,11 +18,14 @@ Message header() {
   return message;
 }
 
-/// A submessage, little-endian, of `length` bytes with the last byte of its writer's entity id.
+// Flags of submessages: the order of bytes, and what data holds.
+constexpr std::uint8_t little = 1, value = little | 4, key = little | 8;
+
+/// A submessage of `length` bytes with the last byte of its writer's entity id.
 void add(Message& message, std::uint8_t kind, std::uint16_t length, std::size_t writer,
-         std::uint8_t entity_kind) {
+         std::uint8_t entity_kind, std::uint8_t flags = little) {
   const std::size_t begin = message.size();
-  message.insert(message.end(), {kind, 1, static_cast<std::uint8_t>(length & 0xff),
+  message.insert(message.end(), {kind, flags, static_cast<std::uint8_t>(length & 0xff),
                                  static_cast<std::uint8_t>(length >> 8)});
   message.resize(begin + 4 + length);
   if (length >= writer + 4) message[begin + 4 + writer + 3] = entity_kind;
@@ -30,16 +33,17 @@ void add(Message& message, std::uint8_t kind, std::uint16_t length, std::size_t 
 
 TEST(RtpsTraffic, TellsSamplesOfUsersFromDiscovery) {
   Message message = header();
-  add(message, 0x09, 8, 0, 0);       // the time of the sample
-  add(message, 0x15, 44, 8, 0x02);   // data of a writer with a key
-  add(message, 0x07, 28, 4, 0x02);   // its heartbeat
-  add(message, 0x15, 100, 8, 0xc2);  // data of a built-in writer
-  add(message, 0x06, 24, 4, 0xc7);   // acknowledged by a built-in reader
+  add(message, 0x09, 8, 0, 0);             // the time of the sample
+  add(message, 0x15, 44, 8, 0x02, value);  // data of a writer with a key
+  add(message, 0x15, 20, 8, 0x02, key);    // it no longer writes an instance
+  add(message, 0x07, 28, 4, 0x02);         // its heartbeat
+  add(message, 0x15, 100, 8, 0xc2);        // data of a built-in writer
+  add(message, 0x06, 24, 4, 0xc7);         // acknowledged by a built-in reader
   const RtpsTraffic counted = traffic_of(message);
   EXPECT_EQ(counted.messages, 1u);
-  EXPECT_EQ(counted.bytes, 20u + 12u + 48u + 32u + 104u + 28u);
+  EXPECT_EQ(counted.bytes, 20u + 12u + 48u + 24u + 32u + 104u + 28u);
   EXPECT_EQ(counted.samples, 1u);
-  EXPECT_EQ(counted.data_bytes, 12u + 48u);
+  EXPECT_EQ(counted.data_bytes, 12u + 48u + 24u);
   EXPECT_EQ(counted.discovery_bytes, 104u + 28u);
   EXPECT_EQ(counted.packets, 1u);
   EXPECT_EQ(counted.headers, 14u + 20u + 8u);

@@ -182,7 +182,10 @@ TEST(PSense, IsRefusedWithTheFaultNamed) {
     return complaint_about(text, {}).value_or("");
   };
   EXPECT_EQ(objection("region with psense"), "");
-  EXPECT_EQ(objection("region with swept(horizon=1) with psense with tiers(at=0.5)"), "");
+  EXPECT_EQ(objection("region with hysteresis(margin=1) with psense with tiers(at=0.5)"), "");
+  EXPECT_EQ(objection("region with swept(horizon=1) with psense"),
+            "psense cannot follow swept: of an entity in flight it would take where the flight "
+            "began");
   EXPECT_EQ(objection("region with psense(vision=0)"),
             "psense: vision = 0 is not a number from 0.000001 to 1");
   EXPECT_EQ(objection("region with psense(vision=1.5)"),
