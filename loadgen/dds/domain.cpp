@@ -30,7 +30,12 @@ std::string configuration(std::uint32_t number, bool is_server) {
 /// What the library says of errors would stand in the middle of ours; the last is kept for them.
 class SaidByLibrary {
  public:
+  /// Forgets what was said before.
   static void listen() {
+    {
+      const std::scoped_lock lock(mutex());
+      text().clear();
+    }
     dds_set_log_sink(
         [](void*, const dds_log_data_t* data) {
           const std::scoped_lock lock(mutex());
@@ -106,7 +111,7 @@ Domain::Domain(std::uint32_t number, bool is_server, std::uint32_t instance) : n
     const std::string said = SaidByLibrary::last();
     if (said.find("interface") != std::string::npos)
       throw DdsError("Cyclone DDS cannot use the loopback interface lo: " + said);
-    if (is_server && participant != DDS_RETCODE_BAD_PARAMETER)
+    if (is_server && said.find("sockets") != std::string::npos)
       throw DomainInUse("domain " + std::to_string(number) + " is in use on this machine (" +
                         (said.empty() ? dds_strretcode(participant) : said) +
                         "): expected another --domain, or none, for any that is free");

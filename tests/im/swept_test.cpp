@@ -254,6 +254,21 @@ TEST(Swept, LetsTiersMeasureWhereThoseWhoFlyAre) {
       << "at 45, 5 from the middle";
 }
 
+/// Of who does not fly.
+TEST(Swept, LetsConditionsSeeTheTimePass) {
+  const auto filter =
+      make_filter("when \"age < 1\" with swept(horizon=0.5)", {.world = {0.0, 0.0, 100.0, 100.0}});
+  filter->set_subscription_region(0, around(50.0, 50.0, 10.0));
+  filter->set_update_region(0, around(52.0, 50.0, 0.0));
+  filter->set_time(2.0);
+  filter->set_entity_facts(0, {.kind = EntityKind::puck, .changed_at = 2.0});
+  EXPECT_THAT(filter->match(), ElementsAre(Change{0, 0, Transition::entered}));
+  filter->set_time(2.9);
+  EXPECT_THAT(filter->match(), IsEmpty());
+  filter->set_time(3.1);
+  EXPECT_THAT(filter->match(), ElementsAre(Change{0, 0, Transition::left}));
+}
+
 TEST(Swept, TakesARegionForTheEndOfAFlight) {
   const auto filter =
       make_filter("region with swept(horizon=10)", {.world = {0.0, 0.0, 100.0, 100.0}});

@@ -79,7 +79,10 @@ void Sender::flush_between_turns(std::span<const UpdateRun> runs, Outlet& outlet
     FlushContext context{slot, federate, uses_.distribution.of(slot), {}, frame_, full_state_sent_};
     if (!context.interest.sent_now.empty()) {  // announced already, and so are those before it
       full_state_sent_.clear();
+      // The updates are not in this flush, so what became due waits for those of the turn.
+      const Bitmap prompt = context.interest.turns ? context.interest.turns->prompt : Bitmap{};
       flush_federate(context, outlet);
+      if (context.interest.turns) context.interest.turns->prompt.insert_all(prompt);
       context.interest.holds_former.clear();
       continue;
     }

@@ -77,8 +77,11 @@ TEST(Condition, IsRefusedWithItsColumnAndWhatIsAllowed) {
               HasSubstr("k = 0 is not a whole number from 1"));
   EXPECT_THAT(objection("(region with nearest(k=3)) or team with swept(horizon=1)"),
               HasSubstr("swept cannot follow nearest"));
-  EXPECT_EQ(objection("region with swept(horizon=1) with nearest(k=3) with dwell(matches=2) with "
-                      "tiers(at=0.5) with priority"),
+  for (const char* stage : {"nearest(k=3)", "top(k=3) by 'x'", "psense", "von", "donnybrook"})
+    EXPECT_THAT(objection(std::string("region with swept(horizon=1) with ") + stage),
+                HasSubstr(" cannot follow swept: of an entity in flight it would take where"));
+  EXPECT_EQ(objection("region with hysteresis(margin=1) with nearest(k=3) with dwell(matches=2) "
+                      "with tiers(at=0.5) with priority"),
             "");
   EXPECT_FALSE(fault_in("when fov")) << "whether it is loaded is no matter of syntax";
   EXPECT_FALSE(fault_in_momentary("when 'x < 1' with nearest(k=3)"));
