@@ -112,11 +112,13 @@ std::span<const Change> ChangeJoin::find(const RegionHistory& entities,
   if (moved == 0) return {};
   const Side entity_side{entities, moved_entities, entities_},
       subscriber_side{subscribers, moved_subscribers, subscribers_};
+  are_grouped_ = false;
   if (moved * few_means_one_in > entities.size() + subscribers.size())
     join_everyone(entity_side, subscriber_side);
   else join_movers(entity_side, subscriber_side);
   if constexpr (checks_whole_structures) check();
-  return changes_.ordered(subscribers.size());
+  return are_grouped_ ? changes_.ordered(group_join_, subscribers.size())
+                      : changes_.ordered(subscribers.size());
 }
 
 /// Stages all of `side`, in their order in space at the last match if that is known: then sorting
@@ -188,8 +190,6 @@ void ChangeJoin::join_groups(const Side& entities, const Side& subscribers) {
   group_join_.add_changes(
       asked, askers,
       {!(asked.is_exact() && askers.is_exact()), moved_judge(Question::rectangles), &exact});
-  changes_.add_by_subscriber(group_join_.found());
-  changes_.add_by_subscriber(group_join_.found_by_worker());
   pairs_tested_ += group_join_.candidate_count();
 }
 

@@ -2,11 +2,11 @@
 #include "im/matching/change_list.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 
 #include "im/basics/checked.h"
+#include "im/matching/short_sort.h"
 
 namespace rink::im {
 namespace {
@@ -25,50 +25,18 @@ Change change(std::uint64_t key) {
           (key & 1u) != 0 ? Transition::entered : Transition::left};
 }
 
-/// Of so many keys the rank is counted; fewer than `least` are sorted as they are.
-constexpr std::size_t least = 7, few = 96;
-
-/// Keys of one subscriber, all different, which so differ in their low halves alone. Each is put
-/// where its rank is: counting how many are smaller takes a third of what sorting by comparison
-/// does, whose branches no processor foresees.
-void sort_few(std::span<std::uint64_t> run) {
-  constexpr std::uint32_t sign = 0x80000000;  // narrow instructions compare numbers with a sign
-  assert(!run.empty() && run.size() <= few);
-  std::array<std::int32_t, few> lows, ranks;
-  const std::size_t padded = (run.size() + 7) / 8 * 8;
-  for (std::size_t i = 0; i < run.size(); ++i)
-    lows[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(run[i]) ^ sign);
-  for (std::size_t i = run.size(); i < padded; ++i) lows[i] = 0;
-  for (std::size_t first = 0; first < padded; first += 8) {
-    std::array<std::int32_t, 8> own, below{};
-    for (std::size_t k = 0; k < 8; ++k) own[k] = lows[first + k];
-    for (std::size_t j = 0; j < run.size(); ++j)
-      for (std::size_t k = 0; k < 8; ++k) below[k] += static_cast<std::int32_t>(lows[j] < own[k]);
-    for (std::size_t k = 0; k < 8; ++k) ranks[first + k] = below[k];
-  }
-  const std::uint64_t subscriber = run[0] >> 32 << 32;
-  for (std::size_t i = 0; i < run.size(); ++i)
-    run[static_cast<std::size_t>(ranks[i])] =
-        subscriber | (static_cast<std::uint32_t>(lows[i]) ^ sign);
-}
-
-/// Runs are short.
-void sort_run(std::uint64_t* first, std::uint64_t* end) {
-  const auto count = static_cast<std::size_t>(end - first);
-  if (count >= least) {
-    if (std::is_sorted(first, end)) return;
-    return count > few ? std::sort(first, end) : sort_few({first, count});
-  }
-  if (count == 0) return;  // then there may be no memory at all
-  for (std::uint64_t* i = first + 1; i < end; ++i) {
-    const std::uint64_t value = *i;
-    std::uint64_t* place = i;
-    for (; place > first && place[-1] > value; --place) *place = place[-1];
-    *place = value;
-  }
-}
-
 }  // namespace
+
+/// Keys of one subscriber differ in their low halves alone.
+void ChangeList::sort_run(std::uint64_t* first, std::uint64_t* end) {
+  if (end - first < 2) return;
+  const std::uint64_t subscriber = *first >> 32 << 32;
+  const auto count = static_cast<std::size_t>(end - first);
+  lows_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) lows_[i] = static_cast<std::uint32_t>(first[i]);
+  sort_short({lows_.data(), count}, spare_);
+  for (std::size_t i = 0; i < count; ++i) first[i] = subscriber | lows_[i];
+}
 
 void ChangeList::add_by_subscriber(const Join& join) {
   std::size_t count = keys_.size();
@@ -153,6 +121,25 @@ void ChangeList::sort(std::size_t subscriber_count) {
   std::swap(keys_, sorted_);
 }
 
+/// Each subscriber's are in order, and in one place.
+std::span<const Change> ChangeList::ordered(const GroupJoin& join, std::size_t subscriber_count) {
+  assert(keys_.empty());
+  starts_.fill(subscriber_count + 1, 0);
+  join.for_each_asker([this](std::uint32_t asker, std::span<const std::uint32_t> found) {
+    starts_[asker + 1] = static_cast<std::uint32_t>(found.size());
+  });
+  for (std::size_t i = 1; i <= subscriber_count; ++i) starts_[i] += starts_[i - 1];
+  assert(starts_[subscriber_count] == join.found_count());
+  changes_.resize(join.found_count());
+  join.for_each_asker([this](std::uint32_t asker, std::span<const std::uint32_t> found) {
+    Change* out = changes_.data() + starts_[asker];
+    for (const std::uint32_t each : found)
+      *out++ = {asker, each >> 1, (each & 1u) != 0 ? Transition::entered : Transition::left};
+  });
+  if constexpr (checks_whole_structures) check();
+  return changes_.span();
+}
+
 std::span<const Change> ChangeList::ordered(std::size_t subscriber_count) {
   sort(subscriber_count);
   assert(keys_.empty() || keys_[keys_.size() - 1] >> 32 < subscriber_count);
@@ -169,7 +156,8 @@ std::span<const Change> ChangeList::ordered(std::size_t subscriber_count) {
 
 void ChangeList::check() const {
   assert(std::is_sorted(keys_.data(), keys_.data() + keys_.size()));
-  assert(changes_.size() <= keys_.size() && (keys_.size() - changes_.size()) % 2 == 0);
+  assert(keys_.empty() ||
+         (changes_.size() <= keys_.size() && (keys_.size() - changes_.size()) % 2 == 0));
   for (std::size_t i = 1; i < changes_.size(); ++i)
     assert(changes_[i - 1].subscriber < changes_[i].subscriber ||
            (changes_[i - 1].subscriber == changes_[i].subscriber &&

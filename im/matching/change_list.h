@@ -6,6 +6,7 @@
 
 #include "im/filter.h"
 #include "im/matching/buffer.h"
+#include "im/matching/group_join.h"
 #include "im/matching/join.h"
 
 namespace rink::im {
@@ -21,6 +22,9 @@ class ChangeList {
   /// `entered_bit`.
   void add_by_subscriber(std::span<const std::uint64_t> found);
   void add_by_entity(std::span<const std::uint64_t> found);
+  /// The changes that a group join found, of subscribers below `subscriber_count`; nothing was
+  /// added. Valid until the next call.
+  std::span<const Change> ordered(const GroupJoin& join, std::size_t subscriber_count);
   /// Orders the changes of subscribers below `subscriber_count`. A pair that is there twice entered
   /// and left, and is left out. Valid until the next call.
   std::span<const Change> ordered(std::size_t subscriber_count);
@@ -29,15 +33,17 @@ class ChangeList {
 
   std::size_t bytes() const {
     return sizeof(std::uint64_t) * (keys_.capacity() + sorted_.capacity()) +
-           sizeof(std::uint32_t) * starts_.capacity() + sizeof(Change) * changes_.capacity();
+           sizeof(std::uint32_t) * (starts_.capacity() + lows_.capacity() + spare_.capacity()) +
+           sizeof(Change) * changes_.capacity();
   }
 
  private:
   void sort(std::size_t subscriber_count);
+  void sort_run(std::uint64_t* first, std::uint64_t* end);
   void sort_by_digits();
 
   Buffer<std::uint64_t> keys_, sorted_;  // subscriber, entity, entered
-  Buffer<std::uint32_t> starts_;
+  Buffer<std::uint32_t> starts_, lows_, spare_;
   Buffer<Change> changes_;
 };
 

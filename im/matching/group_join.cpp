@@ -2,7 +2,11 @@
 #include "im/matching/group_join.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
+
+#include "im/matching/short_sort.h"
 
 namespace rink::im {
 namespace {
@@ -33,31 +37,45 @@ GroupBoxes boxes_of(const BoxIndex& askers, std::size_t first, std::size_t count
 
 void GroupJoin::clear() { own_.clear(), other_.clear(); }
 
+std::size_t GroupJoin::gather(const Inquiry& inquiry, std::size_t first, std::size_t end,
+                              Part& part) {
+  const auto& [index, askers, judge] = inquiry;
+  for (std::size_t count = std::min<std::size_t>(scan_width, end - first);; count /= 2) {
+    part.stretches.clear();
+    const GroupBoxes boxes = boxes_of(askers, first, count);
+    const std::size_t looked_at = index.find_changes(boxes.hull, boxes.core, part.stretches);
+    part.looked_at = looked_at;
+    if (looked_at <= never_divided || count == 1) return count;
+    const std::size_t before = part.stretches.size();
+    const std::size_t alone = index.find_changes(askers.probe(first), part.stretches);
+    part.stretches.resize(before);
+    if (looked_at <= never_divided + times_one * alone) return count;
+  }
+}
+
 void GroupJoin::add(const Inquiry& inquiry, std::size_t begin, std::size_t end, Part& part) const {
   const auto& [index, askers, judge] = inquiry;
   assert(begin <= end && end <= askers.size());
   const Candidates candidates = index.candidates(), asking = askers.candidates();
-  for (std::size_t first = begin; first < end;) {
-    std::size_t count = std::min<std::size_t>(scan_width, end - first), looked_at;
-    for (;; count /= 2) {
-      part.stretches.clear();
-      const GroupBoxes boxes = boxes_of(askers, first, count);
-      looked_at = index.find_changes(boxes.hull, boxes.core, part.stretches);
-      if (looked_at <= never_divided || count == 1) break;
-      const std::size_t before = part.stretches.size();
-      const std::size_t alone = index.find_changes(askers.probe(first), part.stretches);
-      part.stretches.resize(before);
-      if (looked_at <= never_divided + times_one * alone) break;
+  for (std::size_t first = begin, count = 0; first < end; first += count) {
+    count = gather(inquiry, first, end, part);
+    const std::size_t stride = part.looked_at;
+    part.candidate_count += stride * count;
+    part.suspects.resize(2 * (stride / 8 + 1));
+    part.lanes.resize(stride * count);
+    std::array<std::uint32_t, scan_width> counts{};
+    unsigned finders = scan_(candidates, part.stretches.span(), {asking, first, count}, judge,
+                             {part.suspects.data(), part.lanes.data(), stride, counts.data()});
+    for (; finders != 0; finders &= finders - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(finders));
+      const std::size_t size = counts[lane], found = part.found.size();
+      assert(lane < count && 0 < size && size <= stride);
+      const std::span<std::uint32_t> own{part.lanes.data() + lane * stride, size};
+      sort_short(own, part.spare);
+      part.found.resize(found + size);
+      std::copy(own.begin(), own.end(), part.found.data() + found);
+      part.runs.push_back({asking.ids[first + lane], counts[lane]});
     }
-    part.candidate_count += looked_at * count;
-    const std::size_t found = part.found.size();
-    part.found.reserve(found + looked_at * count);
-    part.suspects.resize(2 * (looked_at / 8 + 1));
-    const std::size_t found_now = scan_(candidates, part.stretches.span(), {asking, first, count},
-                                        judge, {part.suspects.data(), part.found.data() + found});
-    assert(found_now <= looked_at * count);
-    part.found.resize(found + found_now);
-    first += count;
   }
 }
 

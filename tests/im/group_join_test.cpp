@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include "im/matching/group_join.h"
+#include "im/matching/short_sort.h"
 #include "tests/im/layouts.h"
 #include "tests/im/recount.h"
 
@@ -32,14 +34,14 @@ void bin(const Motions& motions, BoxIndex& index) {
   index.build();
 }
 
-/// Ordered: the asker's id, and below it the found id with `entered_bit`.
+/// Ordered: the asker's id, and below it the found id with its change.
 std::vector<std::uint64_t> recount(const Motions& askers, const Motions& asked) {
   std::vector<std::uint64_t> changes;
   for (std::uint64_t s = 0; s < askers.size(); ++s)
     for (std::uint32_t e = 0; e < asked.size(); ++e) {
       const bool was = overlap_closed(askers[s].before, asked[e].before),
                  is = overlap_closed(askers[s].now, asked[e].now);
-      if (was != is) changes.push_back(s << 32 | e | (is ? entered_bit : 0u));
+      if (was != is) changes.push_back(s << 32 | found_change(e, is));
     }
   std::sort(changes.begin(), changes.end());
   return changes;
@@ -62,10 +64,14 @@ std::vector<std::uint64_t> found_by(Instructions instructions, const Motions& as
   const Exact exact{askers, asked};
   GroupJoin join(instructions);
   join.add_changes(index, asking, {!(index.is_exact() && asking.is_exact()), judge, &exact});
-  std::vector<std::uint64_t> changes(join.found().begin(), join.found().end());
-  changes.insert(changes.end(), join.found_by_worker().begin(), join.found_by_worker().end());
+  std::vector<std::uint64_t> changes;
+  join.for_each_asker([&](std::uint64_t asker, std::span<const std::uint32_t> found) {
+    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()) && !found.empty());
+    for (const std::uint32_t each : found) changes.push_back(asker << 32 | each);
+  });
   std::sort(changes.begin(), changes.end());
-  EXPECT_LE(join.found().size(), join.candidate_count());
+  EXPECT_EQ(join.found_count(), changes.size());
+  EXPECT_LE(join.found_count(), join.candidate_count());
   return changes;
 }
 
@@ -117,6 +123,21 @@ TEST(GroupJoin, LooksAtFewMoreBoxesThanEachAskerAlone) {
   GroupJoin join(Instructions::best);
   join.add_changes(index, asking, {true, judge, &exact});
   EXPECT_LT(join.candidate_count(), 60 * count);  // 1 of which each overlaps
+}
+
+TEST(ShortSort, OrdersAnyNumberOfNumbers) {
+  Random random(3);
+  Buffer<std::uint32_t> spare;
+  for (const std::uint32_t below : {0x100u, 0x30000u, 0xffffffffu})
+    for (std::size_t count = 0; count < 250; ++count) {
+      std::set<std::uint32_t> different;
+      while (different.size() < std::min<std::size_t>(count, below))
+        different.insert(static_cast<std::uint32_t>(random()) % below);
+      std::vector<std::uint32_t> numbers(different.begin(), different.end()), sorted = numbers;
+      std::shuffle(numbers.begin(), numbers.end(), random);
+      sort_short(numbers, spare);
+      ASSERT_EQ(numbers, sorted);
+    }
 }
 
 }  // namespace

@@ -78,14 +78,21 @@ struct AskerGroup {
 
 struct GroupOutput {
   std::uint64_t* work;   ///< room for two numbers per eight candidates, and two more
-  std::uint64_t* found;  ///< the asker's id, and below it the found id with `entered_bit`; has room
-                         ///< for all pairs
+  std::uint32_t* found;  ///< `stride` of each asker, one after the other: room for all candidates
+  std::size_t stride;
+  std::uint32_t* counts;  ///< of what each of eight askers found, from zero up
 };
 
-/// All askers look at all stretches. Returns the number of matches, those of `changes`.
-using GroupScan = std::size_t (*)(const Candidates& candidates, std::span<const Stretch> stretches,
-                                  const AskerGroup& group, const TieJudge& judge,
-                                  const GroupOutput& output);
+/// What is found by a group: the id, and as the last bit whether the overlap is now.
+constexpr std::uint32_t found_change(std::uint32_t id, bool is_entered) {
+  return id << 1 | (is_entered ? 1u : 0u);
+}
+
+/// All askers look at all stretches, and find what `changes` finds, as `found_change`. Returns a
+/// bit for each asker that found something.
+using GroupScan = unsigned (*)(const Candidates& candidates, std::span<const Stretch> stretches,
+                               const AskerGroup& group, const TieJudge& judge,
+                               const GroupOutput& output);
 
 /// What is asked about two boxes: whether they overlap, or whether one touches the disc that the
 /// other holds (disc.h): the asker's disc, or the candidate's.

@@ -207,14 +207,14 @@ bool is_tie(const BoxColumns& some, std::size_t i, const BoxColumns& others, std
          0.0f;
 }
 
-RINK_AVX2 std::size_t scan_group(const Candidates& candidates, std::span<const Stretch> stretches,
-                                 const AskerGroup& group, const TieJudge& judge,
-                                 const GroupOutput& output) {
+RINK_AVX2 unsigned scan_group(const Candidates& candidates, std::span<const Stretch> stretches,
+                              const AskerGroup& group, const TieJudge& judge,
+                              const GroupOutput& output) {
   const auto& [askers, first, asker_count] = group;
   const Meeting meeting{load(askers.before, first), load(askers.now, first), candidates.before,
                         candidates.now};
+  unsigned finders = 0;
   const std::uint64_t valid = 0x0101010101010101u * lanes(asker_count);
-  std::size_t count = 0;
   for (const Stretch& stretch : stretches) {
     const std::size_t words = (stretch.end - stretch.first + 7) / 8;
     std::uint64_t* const suspects = output.work;
@@ -227,7 +227,7 @@ RINK_AVX2 std::size_t scan_group(const Candidates& candidates, std::span<const S
     for (std::size_t w = 0; w < words; ++w)
       for (std::uint64_t rest = suspects[w] & valid; rest != 0; rest &= rest - 1) {
         const auto bit = static_cast<unsigned>(__builtin_ctzll(rest));
-        const std::size_t i = stretch.first + 8 * w + bit / 8, asker = first + bit % 8;
+        const std::size_t i = stretch.first + 8 * w + bit / 8, lane = bit % 8, asker = first + lane;
         bool is_entered = (apart[w] >> bit & 1u) == 0;
         if (has_ties && (is_tie(askers.before, asker, candidates.before, i) ||
                          is_tie(askers.now, asker, candidates.now, i))) {
@@ -235,11 +235,12 @@ RINK_AVX2 std::size_t scan_group(const Candidates& candidates, std::span<const S
           if (verdict == Verdict::no) continue;
           is_entered = verdict == Verdict::entered;
         }
-        output.found[count++] = std::uint64_t{askers.ids[asker]} << 32 | candidates.ids[i] |
-                                (is_entered ? entered_bit : 0u);
+        output.found[lane * output.stride + output.counts[lane]++] =
+            found_change(candidates.ids[i], is_entered);
+        finders |= 1u << lane;
       }
   }
-  return count;
+  return finders;
 }
 
 /// In which lanes the box touches the disc, and in which that is in doubt; the sign bits count.

@@ -69,13 +69,14 @@ std::size_t scan_changes(const Candidates& candidates, const ProbeBlock& block,
   });
 }
 
-std::size_t scan_group(const Candidates& candidates, std::span<const Stretch> stretches,
-                       const AskerGroup& group, const TieJudge& judge, const GroupOutput& output) {
-  std::size_t count = 0;
+unsigned scan_group(const Candidates& candidates, std::span<const Stretch> stretches,
+                    const AskerGroup& group, const TieJudge& judge, const GroupOutput& output) {
   const auto& [askers, first, asker_count] = group;
+  unsigned finders = 0;
   for (const Stretch& stretch : stretches)
     for (std::size_t i = stretch.first; i < stretch.end; ++i)
-      for (std::size_t asker = first; asker < first + asker_count; ++asker) {
+      for (std::size_t lane = 0; lane < asker_count; ++lane) {
+        const std::size_t asker = first + lane;
         const float before = clearance(candidates.before, i, box_at(askers.before, asker)),
                     now = clearance(candidates.now, i, box_at(askers.now, asker));
         bool is_match = (before >= 0.0f) != (now >= 0.0f), is_entered = now >= 0.0f;
@@ -83,11 +84,12 @@ std::size_t scan_group(const Candidates& candidates, std::span<const Stretch> st
           const Verdict verdict = judge(askers.ids[asker], candidates.ids[i]);
           is_match = verdict != Verdict::no, is_entered = verdict == Verdict::entered;
         }
-        output.found[count] = std::uint64_t{askers.ids[asker]} << 32 | candidates.ids[i] |
-                              (is_entered ? entered_bit : 0u);
-        count += is_match;
+        output.found[lane * output.stride + output.counts[lane]] =
+            found_change(candidates.ids[i], is_entered);
+        output.counts[lane] += is_match ? 1u : 0u;
+        finders |= (is_match ? 1u : 0u) << lane;
       }
-  return count;
+  return finders;
 }
 
 struct Nearness {
