@@ -54,6 +54,11 @@ class PairLists {
     list.resize(list.size() - 1);
   }
 
+  /// Of an entity that the list of `subscriber` may lack.
+  void erase(Subscriber subscriber, Entity entity) {
+    if (Entry* const entry = find(subscriber, entity)) erase(lists_[subscriber], entry);
+  }
+
   void remove_entity(Entity entity) {
     for (List& list : lists_)
       if (Entry* const entry = find(list, entity)) erase(list, entry);

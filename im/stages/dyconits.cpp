@@ -52,7 +52,7 @@ class Dyconits final : public HeldUpdates {
   void judge(Subscriber subscriber, std::span<Held> held) override {
     untold_.clear();
     for (std::size_t i = 0; i < held.size(); ++i)
-      if (held[i].updates > 0) untold_.push_back({cell_at(place(held[i].entity)), i});
+      untold_.push_back({cell_at(place(held[i].entity)), i});
     const Untold *const end = untold_.data() + untold_.size(), *first = untold_.data();
     std::sort(untold_.data(), untold_.data() + untold_.size(), is_before);
     const Cell own = cell_at(middle_of(subscription(subscriber)));

@@ -37,11 +37,7 @@ void HeldUpdates::list(Entity entity) {
 }
 
 void HeldUpdates::set_subscription_region(Subscriber subscriber, const Region& region) {
-  if (subscriber >= subscriptions_.size()) {
-    const std::size_t count = subscriber + std::size_t{1};
-    subscriptions_.resize(count), has_untold_.resize(count);
-    held_.list_of(subscriber);
-  }
+  if (subscriber >= subscriptions_.size()) subscriptions_.resize(subscriber + std::size_t{1});
   subscriptions_[subscriber] = region;
   Parts::set_subscription_region(subscriber, region);
 }
@@ -50,12 +46,30 @@ void HeldUpdates::remove_entity(Entity entity) {
   Parts::remove_entity(entity);
   if (entity >= places_.size()) return;
   places_[entity].is_new = true;
-  held_.remove_entity(entity);
+  if (entity >= near_.size()) return;
+  for (const Subscriber subscriber : near_[entity].span()) {
+    known_.erase(subscriber, entity);
+    held_.erase(subscriber, entity);
+  }
+  near_[entity].clear();
 }
 
 void HeldUpdates::remove_subscriber(Subscriber subscriber) {
   Parts::remove_subscriber(subscriber);
+  if (subscriber < known_.size())
+    for (const Known& known : known_[subscriber].span()) forget(subscriber, known.entity);
+  known_.remove_subscriber(subscriber);
   held_.remove_subscriber(subscriber);
+}
+
+/// Of those for whom `entity` is relevant.
+void HeldUpdates::forget(Subscriber subscriber, Entity entity) {
+  assert(entity < near_.size());
+  Buffer<Subscriber>& near = near_[entity];
+  Subscriber* const place = std::find(near.data(), near.data() + near.size(), subscriber);
+  assert(place != near.data() + near.size());
+  *place = near[near.size() - 1];
+  near.resize(near.size() - 1);
 }
 
 std::span<const Change> HeldUpdates::match() {
@@ -65,11 +79,13 @@ std::span<const Change> HeldUpdates::match() {
   take(changes);
   due_.clear();
   for (Subscriber subscriber = 0; subscriber < held_.size(); ++subscriber) {
-    if (!is_any_updated_ && !has_untold_[subscriber]) continue;
     Buffer<Held>& pairs = held_[subscriber];
+    if (pairs.empty()) continue;
     pairs_tested_ += pairs.size();
-    has_untold_[subscriber] = count_updates(pairs);
-    if (!has_untold_[subscriber]) continue;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const Place& place = places_[pairs[i].entity];
+      if (place.matched_at == now_) pairs[i].way += distance(place.before, place.middle);
+    }
     judge(subscriber, {pairs.data(), pairs.size()});
     tell(subscriber, pairs);
   }
@@ -84,60 +100,57 @@ std::span<const Change> HeldUpdates::match() {
 }
 
 void HeldUpdates::move_places() {
-  is_any_updated_ = false;
   for (const Entity entity : touched_.span()) {
     Place& place = places_[entity];
     const Half middle = middle_of(place.region);
     place.before = std::exchange(place.is_new, false) ? middle : place.middle;
     place.middle = middle;
     place.matched_at = now_;
-    if (std::exchange(place.is_updated, false)) place.updated_at = now_, is_any_updated_ = true;
+    if (std::exchange(place.is_updated, false)) hold(entity);
     place.is_listed = false;
   }
   touched_.clear();
 }
 
-/// An entity that enters is told in full.
-void HeldUpdates::take(std::span<const Change> changes) {
-  for (const Change& change : changes) {
-    assert(change.transition == Transition::entered || change.transition == Transition::left);
-    Buffer<Held>& pairs = held_[change.subscriber];
-    Held* const held = PairLists<Held>::find(pairs, change.entity);
-    assert((held == nullptr) == (change.transition == Transition::entered));
-    if (held) PairLists<Held>::erase(pairs, held);
-    else PairLists<Held>::insert(pairs, {change.entity, 0, now_, {}, 0.0, false});
+/// Holds an update of `entity` back from all for whom it was relevant: whom it enters now is told
+/// in full.
+void HeldUpdates::hold(Entity entity) {
+  if (entity >= near_.size()) return;
+  for (const Subscriber subscriber : near_[entity].span()) {
+    Buffer<Held>& pairs = held_.list_of(subscriber);
+    ++pairs_tested_;
+    if (Held* const held = PairLists<Held>::find(pairs, entity)) ++held->updates;
+    else PairLists<Held>::insert(pairs, {entity, 1, now_ - 1, places_[entity].before, 0.0, false});
   }
 }
 
-bool HeldUpdates::count_updates(Buffer<Held>& pairs) const {
-  bool has_untold = false;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    Held& held = pairs[i];
-    const Place& place = places_[held.entity];
-    const Half& before = place.matched_at == now_ ? place.before : place.middle;
-    if (place.updated_at == now_ && held.since != now_ && held.updates++ == 0)
-      held = {held.entity, 1, now_ - 1, before, 0.0, false};
-    if (held.updates == 0) continue;
-    has_untold = true;
-    held.way += distance(before, place.middle);
+void HeldUpdates::take(std::span<const Change> changes) {
+  for (const auto& [subscriber, entity, transition, tier] : changes) {
+    assert(transition == Transition::entered || transition == Transition::left);
+    if (entity >= near_.size()) near_.resize(entity + std::size_t{1});
+    if (transition == Transition::entered) {
+      PairLists<Known>::insert(known_.list_of(subscriber), {entity});
+      near_[entity].push_back(subscriber);
+    } else {
+      known_.erase(subscriber, entity);
+      held_.erase(subscriber, entity);
+      forget(subscriber, entity);
+    }
   }
-  return has_untold;
 }
 
 void HeldUpdates::tell(Subscriber subscriber, Buffer<Held>& pairs) {
-  bool has_untold = false;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    Held& held = pairs[i];
-    if (!std::exchange(held.is_due, false) || held.updates == 0) {
-      has_untold |= held.updates > 0;
+    if (!pairs[i].is_due) {
+      pairs[kept++] = pairs[i];
       continue;
     }
-    updates_ += held.updates;
+    updates_ += pairs[i].updates;
     ++told_;
-    held = {held.entity, 0, now_, {}, 0.0, false};
-    due_.push_back({subscriber, held.entity, Transition::due});
+    due_.push_back({subscriber, pairs[i].entity, Transition::due});
   }
-  has_untold_[subscriber] = has_untold;
+  pairs.resize(kept);
 }
 
 Traits HeldUpdates::traits() const {
@@ -152,11 +165,19 @@ void HeldUpdates::list_counts(std::vector<StageCount>& counts) const {
   counts.push_back({name_, "told", told_});
 }
 
-/// Asserts that lists are in order, and that no pair lacks a place or was told in the future.
+/// Asserts that lists are in order, that both directions of pairs agree, and that of no pair that
+/// is not relevant anything is held back.
 void HeldUpdates::check() const {
+  [[maybe_unused]] std::size_t near_count = 0, known_count = 0;
+  for (const Buffer<Subscriber>& near : near_) near_count += near.size();
+  known_.check([&](const Known& known) {
+    ++known_count;
+    return known.entity < places_.size() && !places_[known.entity].is_new;
+  });
+  assert(near_count == known_count);
   held_.check([this](const Held& held) {
-    return held.entity < places_.size() && !places_[held.entity].is_new && held.since <= now_ &&
-           !held.is_due && held.way >= 0.0;
+    return held.entity < near_.size() && !near_[held.entity].empty() && held.updates > 0 &&
+           held.since < now_ && !held.is_due && held.way >= 0.0;
   });
 }
 

@@ -35,10 +35,10 @@ class HeldUpdates : public Parts {
   struct Half {
     double x = 0.0, y = 0.0;
   };
-  /// A pair, and what was held back since it was told.
+  /// A relevant pair of which updates are held back.
   struct Held {
     Entity entity;
-    std::uint32_t updates;  ///< held back; without any what was told is the newest
+    std::uint32_t updates;  ///< at least 1
     std::uint64_t since;    ///< the last match at which what was told was the newest
     Half from;              ///< where it was then
     double way;             ///< the sum of its steps since then [m]
@@ -50,11 +50,10 @@ class HeldUpdates : public Parts {
   /// [m]
   static double distance(const Half& from, const Half& to);
 
-  /// Sets `is_due` of what is told at this match, among the pairs of `subscriber` that have
-  /// updates.
+  /// Sets `is_due` of what is told at this match, of all pairs of `subscriber` with updates held
+  /// back: there is one.
   virtual void judge(Subscriber subscriber, std::span<Held> held) = 0;
 
-  // Of a pair with updates.
   /// Matches since what was told was the newest; 1 at the first update.
   std::uint64_t age(const Held& held) const { return now_ - held.since; }
   /// How far it is from where it was then [m].
@@ -64,17 +63,22 @@ class HeldUpdates : public Parts {
 
  private:
   struct Place {
-    Region region;                                 ///< now
-    Half middle, before;                           ///< at the last match, and at the one before
-    std::uint64_t matched_at = 0, updated_at = 0;  ///< by number; when the region was set
+    Region region;                 ///< now
+    Half middle, before;           ///< at the last match, and at the one before
+    std::uint64_t matched_at = 0;  ///< by number, when something of it was new
     bool is_new = true, is_listed = false, is_updated = false;
+  };
+
+  /// A relevant pair.
+  struct Known {
+    Entity entity;
   };
 
   void list(Entity entity);
   void move_places();
+  void hold(Entity entity);
   void take(std::span<const Change> changes);
-  /// Counts this match's updates; true if any of the pairs has one.
-  bool count_updates(Buffer<Held>& pairs) const;
+  void forget(Subscriber subscriber, Entity entity);
   void tell(Subscriber subscriber, Buffer<Held>& pairs);
   void check() const;
 
@@ -82,10 +86,10 @@ class HeldUpdates : public Parts {
   std::uint64_t now_ = 0;  ///< number of the match
   std::vector<Place> places_;
   std::vector<Region> subscriptions_;
+  PairLists<Known> known_;
+  std::vector<Buffer<Subscriber>> near_;  ///< by entity: for whom it is relevant, in any order
   PairLists<Held> held_;
-  std::vector<bool> has_untold_;  ///< by subscriber: some pair has updates
-  Buffer<Entity> touched_;        ///< moved or updated since the last match
-  bool is_any_updated_ = false;   ///< at this match
+  Buffer<Entity> touched_;  ///< moved or updated since the last match
   Buffer<Change> due_;
   std::uint64_t updates_ = 0, told_ = 0;
 };

@@ -29,7 +29,6 @@ class VectorField final : public HeldUpdates {
     const double reach =
         std::min(0.5 * own.high_x - 0.5 * own.low_x, 0.5 * own.high_y - 0.5 * own.low_y);
     for (Held& each : held) {
-      if (each.updates == 0) continue;
       const double distance_now = distance(pivot, place(each.entity));
       const ConsistencyZone* zone = nullptr;
       for (const ConsistencyZone& wider : zones_)

@@ -251,6 +251,25 @@ TEST(HeldUpdates, LookAtNoPairWhereNothingIsHeldBack) {
   EXPECT_EQ(filter->counters().pairs_tested, before);
 }
 
+/// Of 2,500 pairs, only those of the one entity that something was updated of.
+TEST(HeldUpdates, LookAtThePairsOfWhatWasUpdatedAlone) {
+  const auto filter = make_filter("region with vfc(at=0 updates=2)", hundred);
+  for (std::uint32_t id = 0; id < 50; ++id) {
+    filter->set_update_region(id, point(id, 50.0));
+    filter->set_subscription_region(id, world);
+  }
+  EXPECT_EQ(filter->match().size(), 2'500u);
+  const std::uint64_t before = filter->counters().pairs_tested;
+  for (int update = 0; update < 2; ++update) {
+    filter->note_update(7);
+    EXPECT_TRUE(match(*filter).empty());
+  }
+  EXPECT_EQ(filter->counters().pairs_tested - before, 2u * (50u + 50u));
+  filter->remove_subscriber(3), filter->remove_entity(9);
+  filter->note_update(7);
+  EXPECT_EQ(filter->match().size(), 49u);
+}
+
 TEST(HeldUpdates, AreRefusedByNameWhereBoundsAreWrong) {
   const auto complaint = [](const char* text) {
     return complaint_about(text, hundred).value_or("");
