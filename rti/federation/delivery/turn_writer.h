@@ -12,7 +12,8 @@
 
 namespace rink::rti {
 
-/// It does nothing for a filter that has neither tiers nor a budget.
+/// It does nothing for a filter that neither decides tiers, nor holds updates back, nor has a
+/// budget.
 class TurnWriter {
  public:
   TurnWriter(const FederationBasis& basis, DataDistribution& distribution,
