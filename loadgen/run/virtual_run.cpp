@@ -29,6 +29,7 @@
 #include "loadgen/run/game_plan.h"
 #include "loadgen/run/virtual_parts.h"
 #include "rti/transport/modelled/virtual_network.h"
+#include "rti/transport/socket_transport.h"
 
 namespace rink::loadgen {
 namespace {
@@ -251,12 +252,12 @@ void VirtualRun::play() {
     const double simulated_s = static_cast<double>(number) / rate_hz;
     advance_until(start_ns_ + nanoseconds(simulated_s));
     if (ticks_ == 0 && simulated_s >= experiment_.warm_up_s) {
-      begin_ = counts_of(serving_, server_end_.totals());
+      begin_ = counts_of(serving_, rti::with_datagrams(server_end_.totals()));
       measured_from_ns_ = network_.now_ns();
     }
     if (number ==
         last) {  // it closes the span and is not in it: n ticks, and the n periods that they begin
-      end_ = counts_of(serving_, server_end_.totals());
+      end_ = counts_of(serving_, rti::with_datagrams(server_end_.totals()));
       measured_until_ns_ = network_.now_ns();
     }
     serving_.tick(experiment_.start_s + simulated_s, now_s());
@@ -335,7 +336,7 @@ game::ServerTrace VirtualRun::server_trace() const {
 void VirtualRun::end(Json& server_report) {
   crowd_.resign();
   advance_until(network_.now_ns() + 2 * settling_ns(experiment_));
-  game::add_totals(server_report, server_end_.totals());
+  game::add_totals(server_report, rti::with_datagrams(server_end_.totals()));
 }
 
 void run(const RunnerSettings& settings, const Experiment& experiment, const Cell& cell,

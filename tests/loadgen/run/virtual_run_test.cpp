@@ -75,6 +75,14 @@ TEST_F(VirtualRunTest, AKeyTakesEffectAfterTwoDelaysAndTheWaitForTheTickBetween)
   EXPECT_LE(bots["send_lateness_ms"]["max_s"].get<double>(), 1e-9);
 }
 
+TEST_F(VirtualRunTest, TheServerCountsTheDatagramsThatItSends) {
+  experiment_.network_is_modelled = experiment_.network_carries_datagrams = true;
+  const Cell cell = first_cell();
+  run(cell);
+  EXPECT_EQ(report(cell, "server")["total_bytes_sent"],
+            report(cell, "bots")["total_bytes_received"]);
+}
+
 TEST_F(VirtualRunTest, PlaysTheVeryGameThatTheKeysPlayAlone) {
   const Cell cell = first_cell();
   game::Game game(scene_of(experiment_, cell));
