@@ -186,6 +186,9 @@ void add_options(Flags& flags, ServeOptions& options) {
           "its own bat are sent at the next tick all the same; 0: an update at each tick")
       .check(zero_or_number_from(0.1, 1000.0))
       .shows_default();
+  flags.flag("--bytes-by-field", options.counts_fields,
+             "the report says where the payload goes, by message and field; it costs time, since "
+             "all is read again");
   flags
       .option("--spread", options.spread,
               "part of a tick over which its writes are staggered, each client's at a phase of "

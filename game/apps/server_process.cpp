@@ -20,7 +20,6 @@ namespace rink::game {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
 constexpr double not_started_s = 0.0;  ///< the due instant in stamps before the start
 
 /// The bat of a player that has left before the start goes to whoever comes.
@@ -59,6 +58,7 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                              options.has_second_core ? &second_core_.emplace() : nullptr),
                {now_s, [this] { return simulated_now(); }}),
       clients_(sockets_.get()),
+      ledger_(options.counts_fields ? &add_ledger(clients_, fom) : nullptr),
       stagger_(clients_.add<rti::Stagger>(options.spread / options.rate_hz, now_s)),
       server_(serving_.server()),
       records_(options.record),
@@ -293,6 +293,7 @@ void ServerProcess::end_span() {
 ServingCounts ServerProcess::counts() const {
   ServingCounts counts = counts_of(serving_, sockets_.totals());
   if (shared_) counts.to_nodes = shared_->sent();
+  if (ledger_ != nullptr) counts.fields = ledger_->rows();
   return counts;
 }
 
@@ -356,8 +357,7 @@ std::optional<ServerTrace> ServerProcess::trace(const ServedGame& played) const 
 
 Json ServerProcess::report() const {
   const double ticks = std::max<double>(1.0, static_cast<double>(costs_.ticks));
-  std::string why_invalid = server_.error();
-  if (is_interrupted) why_invalid = "interrupted";
+  std::string why_invalid = is_interrupted ? "interrupted" : server_.error();
   if (why_invalid.empty() && costs_.ticks == 0) why_invalid = "no tick was measured";
   const TickBudgetCounters& budget = server_.budget().counters();
   if (why_invalid.empty() && budget.ticks_cut_short > 0)

@@ -16,6 +16,7 @@
 #include "game/net/server_trace.h"
 #include "rti/second_core.h"
 #include "rti/transport/socket_transport.h"
+#include "rti/transport/staged/ledger_stage.h"
 #include "rti/transport/staged/stagger.h"
 
 namespace rink::game {
@@ -84,6 +85,7 @@ class ServerProcess {
   std::optional<rti::SecondCore> second_core_;
   Serving serving_;
   rti::StagedTransport clients_;
+  rti::LedgerStage* ledger_;  ///< null unless the report says where the bytes go
   rti::Stagger& stagger_;
   Server& server_;
   MatchRecords records_;

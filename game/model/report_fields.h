@@ -49,6 +49,9 @@ inline constexpr AmountField bytes_sent{"bytes_sent"}, bytes_received{"bytes_rec
 inline constexpr CountField lost_federates{"lost_federates"},
     dropped_connections{"dropped_connections"}, keys_over_limit{"keys_over_limit"};
 
+/// Where the payload goes, an array of objects: direction, channel, form, field, bits, times.
+inline constexpr const char* bytes_by_field = "bytes_by_field";
+
 // Totals from first to last, as counted here and by the kernel.
 inline constexpr AmountField total_bytes_sent{"total_bytes_sent"},
     total_bytes_received{"total_bytes_received"}, kernel_bytes_sent{"kernel_bytes_sent"},

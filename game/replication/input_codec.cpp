@@ -83,4 +83,22 @@ bool InputCodec::decode_residual(const rti::ResidualBasis& basis, double, rti::B
   return true;
 }
 
+void InputCodec::list_fields(rti::Bytes coded, const rti::FieldVisitor& visit) const {
+  visit("held", held_bits);
+  visit("count", 8 * coded.size() - held_bits);
+}
+
+bool InputCodec::list_residual_fields(rti::BitReader& bits, bool,
+                                      const rti::FieldVisitor& visit) const {
+  const std::size_t from = bits.at();
+  bool is_next = false, is_one = false;
+  std::uint64_t more = 0;
+  if (!bits.flag(is_next) || (!is_next && !bits.golomb(more, 0))) return false;
+  visit("count", bits.at() - from);
+  const unsigned size = !bits.flag(is_one) ? 0 : is_one ? key_bits : held_bits;
+  if (size == 0 || !bits.skip(size)) return false;
+  visit("held", 1 + size);
+  return true;
+}
+
 }  // namespace rink::game

@@ -21,6 +21,9 @@ class InputCodec : public rti::AttributeCodec {
                        rti::BitWriter& bits) const override;
   bool decode_residual(const rti::ResidualBasis& basis, double time, rti::BitReader& bits,
                        std::vector<std::byte>& value) const override;
+  void list_fields(rti::Bytes coded, const rti::FieldVisitor& visit) const override;
+  bool list_residual_fields(rti::BitReader& bits, bool has_companion,
+                            const rti::FieldVisitor& visit) const override;
 };
 
 }  // namespace rink::game

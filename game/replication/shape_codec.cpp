@@ -84,4 +84,16 @@ bool ShapeCodec::decode(rti::Bytes coded, double, std::vector<std::byte>& value)
   return false;
 }
 
+void ShapeCodec::list_fields(rti::Bytes coded, const rti::FieldVisitor& visit) const {
+  rti::Reader reader(coded);
+  std::uint8_t byte = 0;
+  for (const char* each : {"kind", "team"})
+    if (reader.number(byte)) visit(each, 8);
+  for (const char* each : {"half_length", "half_width", "drag", "friction", "thrust", "mass"}) {
+    const std::size_t before = reader.left();
+    float number = 0.0f;
+    if (decode_number(reader, number)) visit(each, 8 * (before - reader.left()));
+  }
+}
+
 }  // namespace rink::game

@@ -13,6 +13,7 @@ class ShapeCodec : public rti::AttributeCodec {
   void encode(rti::Bytes value, double time, std::vector<std::byte>& coded) const override;
   std::optional<std::size_t> size(rti::Bytes coded) const override;
   bool decode(rti::Bytes coded, double time, std::vector<std::byte>& value) const override;
+  void list_fields(rti::Bytes coded, const rti::FieldVisitor& visit) const override;
 };
 
 }  // namespace rink::game

@@ -332,6 +332,52 @@ bool TrajectoryCodec::decode_residual(const rti::ResidualBasis& from, double tim
   return true;
 }
 
+void TrajectoryCodec::list_fields(rti::Bytes coded, const rti::FieldVisitor& visit) const {
+  BitReader bits(coded);
+  auto form = static_cast<Form>(get(bits, form_bits));
+  if (form == full && get(bits, 1) != 0) form = driven;
+  visit("form", form == full || form == driven ? form_bits + 1 : form_bits);
+  if (form == full) {
+    visit("fill", 8 - form_bits - 1);
+    constexpr std::size_t pair_bits = 2 * 64;
+    visit("time", 64);
+    for (const char* each : {"position", "velocity", "acceleration", "drag"})
+      visit(each, pair_bits);
+    return;
+  }
+  std::size_t used = form == driven ? form_bits + 1 : form_bits;
+  const auto add = [&](const char* name, std::size_t size) {
+    visit(name, size);
+    used += size;
+  };
+  if (form != resting) add("time", time_bits);
+  add("position", 2 * (form == wide ? wide_position_bits : near_position_bits));
+  if (form != resting)
+    add("velocity", 2 * (form == wide ? wide_velocity_bits : near_velocity_bits));
+  if (form == driven) add("acceleration", 2 * push_bits + 1);
+  bool has_acceleration = false;
+  std::size_t drags = 0;
+  if (form == wide) {
+    add("law", 3);
+    bits = BitReader(coded, wide_flags_at);
+    has_acceleration = get(bits, 1) != 0;
+    for (int axis = 0; axis < 2; ++axis) drags += 1 - get(bits, 1);
+  }
+  const std::size_t packed = form == resting  ? 5
+                             : form == near   ? near_size
+                             : form == driven ? driven_size
+                                              : wide_size;
+  visit("fill", 8 * packed - used);
+  if (form == driven) visit("acceleration", 8 * (coded.size() - packed));
+  if (has_acceleration) visit("acceleration", 2 * 32);
+  if (drags > 0) visit("drag", 64 * drags);
+}
+
+bool TrajectoryCodec::list_residual_fields(rti::BitReader& bits, bool has_companion,
+                                           const rti::FieldVisitor& visit) const {
+  return list_residual(bits, has_companion, visit);
+}
+
 rti::Fom load_rink_fom(const std::string& path) { return load_rink_fom(std::span(&path, 1)); }
 
 rti::Fom load_rink_fom(std::span<const std::string> paths) {

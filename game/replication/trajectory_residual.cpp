@@ -320,4 +320,29 @@ bool read_residual(rti::BitReader& bits, const TrajectoryBasis& basis, Trajector
   return true;
 }
 
+bool list_residual(rti::BitReader& bits, bool is_of_impact, const rti::FieldVisitor& visit) {
+  std::size_t from = bits.at();
+  const auto end = [&](const char* name) {
+    visit(name, bits.at() - from);
+    from = bits.at();
+    return true;
+  };
+  const auto skip = [&bits](unsigned order) {
+    std::uint64_t number = 0;
+    return bits.golomb(number, order);
+  };
+  Trajectory t;
+  const Shape pushing{.thrust = 1.0f};
+  const std::optional<Law> law = read_law(bits, pushing, t);
+  if (!law || (is_of_impact && *law == Law::rest) || !end("law")) return false;
+  const bool has_velocity = *law != Law::rest;
+  if (has_velocity && !is_of_impact && (!skip(late_order) || !end("late"))) return false;
+  if (!skip(position_order) || !skip(position_order) || !end("position")) return false;
+  if (!has_velocity) return true;
+  std::size_t k = 0;
+  if (!is_of_impact && (!bits.bits(k, class_bits) || !end("order"))) return false;
+  const unsigned order = is_of_impact ? impact_order : velocity_orders[k];
+  return skip(order) && skip(order) && end("velocity");
+}
+
 }  // namespace rink::game

@@ -3,6 +3,7 @@
 
 #include "game/replication/attributes.h"
 #include "game/replication/trajectory.h"
+#include "rti/fom/attribute_codec.h"
 #include "rti/wire/bit_stream.h"
 
 namespace rink::game {
@@ -35,5 +36,7 @@ struct TrajectoryBasis {
 bool write_residual(rti::BitWriter& bits, const TrajectoryBasis& basis, const Trajectory& t);
 /// Reads what `write_residual` wrote; false if the bits are malformed.
 bool read_residual(rti::BitReader& bits, const TrajectoryBasis& basis, Trajectory& t);
+/// Steps over a residual and names its fields; `is_of_impact`: it refers to an impact, too.
+bool list_residual(rti::BitReader& bits, bool is_of_impact, const rti::FieldVisitor& visit);
 
 }  // namespace rink::game

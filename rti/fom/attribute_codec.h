@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ struct ResidualBasis {
   Bytes context;  ///< the value of the attribute that the codec names, empty if it names none
   const ResidualChange* companion = nullptr;  ///< if the residual refers to that, too
 };
+
+/// Receives the name of a field and how many bits it takes.
+using FieldVisitor = std::function<void(std::string_view name, std::size_t bits)>;
 
 /// Codes the values of one data type on their way. Federates give and receive values as the object
 /// model defines them; only between them are values coded. Without a codec a value travels as it
@@ -74,6 +78,18 @@ class AttributeCodec {
   /// `encode_residual`.
   virtual bool decode_residual(const ResidualBasis& /*basis*/, double /*time*/, BitReader& /*bits*/,
                                std::vector<std::byte>& /*value*/) const {
+    return false;
+  }
+
+  /// Names the fields of a coded value, whose size was found, in their order: all of its bits. The
+  /// names are literals, or live as long as the codec.
+  virtual void list_fields(Bytes coded, const FieldVisitor& visit) const {
+    visit({}, 8 * coded.size());
+  }
+  /// The same of a residual, whose bits it steps over without knowing what they refer to; false if
+  /// they are malformed or not all there.
+  virtual bool list_residual_fields(BitReader& /*bits*/, bool /*has_companion*/,
+                                    const FieldVisitor& /*visit*/) const {
     return false;
   }
 };

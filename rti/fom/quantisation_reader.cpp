@@ -116,27 +116,30 @@ class Flattening {
 
   /// Appends the fields of `type`, whose size is known and which thus does not contain itself, the
   /// first of them behind `padding` bytes.
-  void add(const std::string& type, std::uint32_t padding) {
+  void add(const std::string& type, std::uint32_t padding, const std::string& name) {
     const auto found = types_.declared().find(type);
     const std::string_view kind = found == types_.declared().end() ? "" : found->second.name();
-    if (kind == "fixedRecordData") return add_record(found->second, padding);
+    if (kind == "fixedRecordData") return add_record(found->second, padding, name);
     if (kind == "simpleData" && note(found->second, "range"))
       fields.push_back(ranged_field(found->second, modules_));
     else fields.push_back({.size = types_.size_of(type, {}).value_or(0)});
     fields.back().padding = padding;
+    fields.back().name = name;
   }
 
   std::vector<QuantisedField> fields;
 
  private:
-  void add_record(const Node& record, std::uint32_t outer_padding) {
+  void add_record(const Node& record, std::uint32_t outer_padding, const std::string& outer) {
     std::map<std::string, std::size_t> places;
     auto padding = types_.padding_of(record);
     if (!padding.empty()) padding.front() += outer_padding;
     auto before = padding.begin();
     for (const Node& field : record.children("field")) {
-      places[field.child("name").text().get()] = fields.size();
-      add(field.child("dataType").text().get(), *before++);
+      const std::string name = field.child("name").text().get();
+      places[name] = fields.size();
+      add(field.child("dataType").text().get(), *before++,
+          outer.empty() ? name : std::string(outer).append(".").append(name));
     }
     for (const Node& field : record.children("field")) {
       const std::optional<std::string> rated = note(field, "rate of");
@@ -162,7 +165,7 @@ std::shared_ptr<const QuantisedCodec> quantised_codec_of(const std::string& data
                                                          DataTypes& types,
                                                          const FomModules& modules) {
   Flattening flat(types, modules);
-  flat.add(data_type, 0);
+  flat.add(data_type, 0, {});
   const auto has_grid = [](const QuantisedField& field) { return field.grid.has_value(); };
   if (flat.fields.size() > QuantisedCodec::field_max || std::ranges::none_of(flat.fields, has_grid))
     return nullptr;

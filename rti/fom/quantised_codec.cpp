@@ -203,4 +203,14 @@ void QuantisedCodec::append_value(const Counts& counts, std::vector<std::byte>& 
   }
 }
 
+void QuantisedCodec::list_fields(Bytes coded, const FieldVisitor& visit) const {
+  BitReader bits(coded);
+  bool is_full = false;
+  if (!bits.flag(is_full)) return;
+  visit("form", 1);
+  for (const QuantisedField& field : fields_)
+    visit(field.name, field.grid && !is_full ? field.grid->bits : 8 * field.size);
+  visit("fill", 8 * coded.size() - coded_bits(is_full));
+}
+
 }  // namespace rink::rti

@@ -23,6 +23,7 @@ struct QuantisedField {
   std::optional<Quantisation> grid{};      ///< nothing: every bit of it travels
   std::optional<std::uint32_t> rate_of{};  ///< the field whose change per second this one is
   std::uint32_t padding = 0;  ///< between the field before it and this one [bytes]; read as zeros
+  std::string name{};         ///< in its record; of a nested one "outer.inner"
 };
 
 /// Codes records by rounding each field to its grid: |decoded - value| <= half a step <= half the
@@ -72,6 +73,7 @@ class QuantisedCodec : public AttributeCodec {
   /// Checks the counts too, so that a forwarded value can be decoded.
   std::optional<std::size_t> size(Bytes coded) const override;
   bool decode(Bytes coded, double time, std::vector<std::byte>& value) const override;
+  void list_fields(Bytes coded, const FieldVisitor& visit) const override;
 
  private:
   bool is_in_range(Bytes value) const;

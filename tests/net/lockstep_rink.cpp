@@ -3,6 +3,7 @@
 
 #include "game/net/server/push_exact.h"
 #include "game/net/server/push_filter_hints.h"
+#include "game/net/server/serve_report.h"
 #include "game/replication/filter_setup.h"
 #include "game/replication/trajectory_codec.h"
 #include "tests/places.h"
@@ -31,7 +32,11 @@ LockstepRink::LockstepRink(const Scene& scene, const LockstepSettings& settings)
       execution_(fom_, federation_settings(scene, settings.scheme, settings.update_rate)),
       host_(execution_) {
   hub_.listen("rti");
-  host_.add(hub_);
+  if (settings.is_recorded) {
+    ledger_ = &add_ledger(staged_, fom_);
+    recording_ = &staged_.add<RecordingStage>();
+  }
+  host_.add(staged_);
   server_ = std::make_unique<Server>(fom_, scene, settings.server, [this] { return now; });
   server_link_ = std::make_unique<rti::FederateLink>(server_->ambassador(), server_endpoint_,
                                                      server_endpoint_.connect("rti"));

@@ -16,6 +16,8 @@
 #include "rti/transport/federate_link.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/in_process.h"
+#include "rti/transport/staged/ledger_stage.h"
+#include "tests/net/wire/recording_stage.h"
 
 namespace rink::game {
 
@@ -36,6 +38,7 @@ struct LockstepSettings {
   bool extrapolates = true, declares_regions = true;
   std::uint32_t told = 0;  ///< the first so many clients do not compute, whatever the policy
   rti::UpdateRate update_rate = {};  ///< of every federate
+  bool is_recorded = false;          ///< keeps a ledger and every byte
   ServerSettings server = {};
 };
 
@@ -65,6 +68,9 @@ class LockstepRink {
   std::size_t client_count() const { return clients_.size(); }
   const std::string& scheme() const { return settings_.scheme; }
   rti::FederationExecution& execution() { return execution_; }
+  /// Null unless it is recorded.
+  const rti::LedgerStage* ledger() const { return ledger_; }
+  const RecordingStage* recording() const { return recording_; }
   /// Null unless the policy is "exact".
   const ExactFeed* exact_feed() const { return exact_ ? &*exact_ : nullptr; }
   /// Where the federation is called "rti", for who joins on his own.
@@ -89,6 +95,9 @@ class LockstepRink {
   const ObjectModel model_;
   rti::InProcessNetwork network_;
   rti::InProcessEndpoint hub_, server_endpoint_;
+  rti::StagedTransport staged_{hub_};
+  rti::LedgerStage* ledger_ = nullptr;
+  RecordingStage* recording_ = nullptr;
   rti::FederationExecution execution_;
   rti::FederationHost host_;
   std::unique_ptr<Server> server_;

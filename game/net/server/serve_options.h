@@ -28,7 +28,7 @@ struct ServeOptions {
       nodes = 0,              ///< that share the simulation; 0: this server alone, or `join`
       balance_windows = 25;   ///< after which their zones may shift; 0: never
   std::uint64_t seed = 0;
-  bool is_time_managed = false, has_second_core = false;
+  bool is_time_managed = false, has_second_core = false, counts_fields = false;
   double rate_hz = 30.0, output_rate_hz = 0.0, duration_s = 0.0, warm_up_s = 0.0, cell_size = 0.0,
          patience_s = 30.0, node_patience_s = 30.0, countdown_s = 3.0, absence_s = 30.0,
          every_s = 0.0;

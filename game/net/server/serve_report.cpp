@@ -2,12 +2,14 @@
 #include "game/net/server/serve_report.h"
 
 #include <algorithm>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
 #include "game/model/report_fields.h"
 #include "game/model/report_schema.h"
+#include "game/replication/exact/exact_fields.h"
 #include "im/basics/hexadecimal.h"
 
 namespace rink::game {
@@ -33,6 +35,19 @@ void add_sent_to_nodes(Json& report, const std::vector<rti::TransportCounters>& 
     report[report::node_kernel_segments_sent.key].push_back(kernel_segments(last) -
                                                             kernel_segments(first));
   }
+}
+
+/// Nothing if no ledger was kept.
+void add_fields(Json& report, const std::vector<rti::LedgerRow>& begin,
+                const std::vector<rti::LedgerRow>& end) {
+  for (const rti::LedgerRow& row : rti::ledger_between(begin, end))
+    report[report::bytes_by_field].push_back(
+        {{"direction", row.direction == rti::LedgerDirection::down ? "down" : "up"},
+         {"channel", row.channel == rti::LedgerChannel::stream ? "stream" : "datagram"},
+         {"form", row.form},
+         {"field", row.field},
+         {"bits", row.amount.bits},
+         {"times", row.amount.times}});
 }
 
 /// Of clients that were there at both instants: how often the one that was updated the least, all
@@ -118,6 +133,7 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
       kernel_segments(first.transport);  // without a kernel the own count
   add_sent_to_nodes(report, first.to_nodes, last.to_nodes);
   add_evenness(report, first, last);
+  add_fields(report, first.fields, last.fields);
   // Stages are in the order of the expression; two of a kind have an entry each.
   for (std::size_t i = 0; i < last.stages.size(); ++i) {
     const im::StageCount& stage = last.stages[i];
@@ -127,6 +143,10 @@ Json counted_report(const Serving& serving, const ServingCounts& first, const Se
          {"count", stage.count - (i < first.stages.size() ? first.stages[i].count : 0)}});
   }
   return report;
+}
+
+rti::LedgerStage& add_ledger(rti::StagedTransport& transport, const rti::Fom& fom) {
+  return transport.add<rti::LedgerStage>(fom, [] { return std::make_unique<ExactFields>(); });
 }
 
 void add_totals(Json& report, const rti::TransportCounters& total) {

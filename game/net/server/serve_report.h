@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "game/net/server/serving.h"
+#include "rti/ledger/byte_ledger.h"
+#include "rti/transport/staged/ledger_stage.h"
 
 namespace rink::game {
 
@@ -18,6 +20,7 @@ struct ServingCounts {
   std::vector<im::StageCount> stages;  ///< the figures of the filter's stages
   physics::Counters physics;
   std::vector<rti::TransportCounters> to_nodes{};  ///< of a node: what it sent each, by number
+  std::vector<rti::LedgerRow> fields{};            ///< where the payload went, if a ledger is kept
   /// How many times each player's client was updated since it joined, by ascending federate.
   std::vector<std::pair<rti::FederateHandle, std::uint64_t>> times_updated{};
 };
@@ -31,6 +34,9 @@ void follow_times_updated(const Serving& serving, ServingCounts& counts);
 /// from `begin` to `end`; of a node also what it sent the others.
 nlohmann::ordered_json counted_report(const Serving& serving, const ServingCounts& begin,
                                       const ServingCounts& end);
+
+/// Puts a ledger of all that clients are sent and send on `transport`, below any other stage.
+rti::LedgerStage& add_ledger(rti::StagedTransport& transport, const rti::Fom& fom);
 
 /// Adds the traffic of connections from first to last, by own and kernel counts; null without a
 /// kernel.

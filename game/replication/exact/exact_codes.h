@@ -18,6 +18,12 @@ namespace exact {
 
 inline constexpr std::uint64_t list_max = 1u << 20;
 
+/// What follows is of that field: for a stream that wants to know where the bits go.
+template <class Stream>
+void mark(Stream& stream, const char* field) {
+  if constexpr (requires { stream.begin_field(field); }) stream.begin_field(field);
+}
+
 template <class Stream>
 bool count(Stream& stream, std::uint64_t& value, std::uint64_t max, unsigned order) {
   if constexpr (!Stream::is_reading) assert(value <= max);

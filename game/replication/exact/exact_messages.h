@@ -118,6 +118,7 @@ bool drive_change(Stream& stream, const Drive& before, Drive& after) {
 template <class Stream>
 bool exchange_keys(Stream& stream, ExactTick& tick, const ExactContext& context,
                    std::vector<Drive>& drives) {
+  mark(stream, "keys.count");
   if (!size(stream, tick.keys, 2)) return false;
   auto form = KeyTimes::full;
   if constexpr (!Stream::is_reading) form = key_times(tick.keys);
@@ -128,6 +129,7 @@ bool exchange_keys(Stream& stream, ExactTick& tick, const ExactContext& context,
   const unsigned order = form == KeyTimes::microseconds ? 11 : 6;
   double latest = context.time;
   for (ExactKey& key : tick.keys) {
+    mark(stream, "keys.time");
     if (form == KeyTimes::full) {
       if (!stream.full(key.time)) return false;
     } else {
@@ -137,11 +139,13 @@ bool exchange_keys(Stream& stream, ExactTick& tick, const ExactContext& context,
       if constexpr (Stream::is_reading) key.time = key_instant(form, last);
     }
     std::uint64_t bat = key.bat;
+    mark(stream, "keys.bat");
     if (!(key.time >= latest && key.time <= tick.time) || !below(stream, bat, context.bats))
       return false;
     latest = key.time;
     key.bat = static_cast<std::uint32_t>(bat);
     if constexpr (Stream::is_reading) key.before = drives[key.bat];
+    mark(stream, "keys.drive");
     if (!drive_change(stream, key.before, key.after)) return false;
     drives[key.bat] = key.after;
   }
@@ -154,16 +158,19 @@ bool exchange_entry(Stream& stream, ExactEntry& entry, const ExactStart& start, 
   std::uint64_t off = folded(static_cast<std::int64_t>(entry.object) -
                              static_cast<std::int64_t>(entry.number) - start.object_base);
   std::uint64_t exact_class = entry.exact_class;
-  if (!rising(stream, entry.number, last, exact_number_max) ||
-      !count(stream, off, std::uint64_t{1} << 34, 0) ||
-      !below(stream, exact_class, start.classes.size()))
-    return false;
+  mark(stream, "entries.number");
+  if (!rising(stream, entry.number, last, exact_number_max)) return false;
+  mark(stream, "entries.object");
+  if (!count(stream, off, std::uint64_t{1} << 34, 0)) return false;
+  mark(stream, "entries.class");
+  if (!below(stream, exact_class, start.classes.size())) return false;
   const std::int64_t object =
       unfolded(off) + static_cast<std::int64_t>(entry.number) + start.object_base;
   if (object < 0 || object >= 0xffffffff) return false;  // the greatest is the empty handle
   entry.object = static_cast<std::uint32_t>(object);
   entry.exact_class = static_cast<std::uint32_t>(exact_class);
   const ExactClass& kind = start.classes[entry.exact_class];
+  mark(stream, "entries.player");
   if (kind.kind == physics::BodyKind::bat && !small(stream, entry.player, exact_number_max, 5))
     return false;
   return kind.kind == physics::BodyKind::post ||
@@ -174,8 +181,10 @@ template <class Stream>
 bool exchange_changes(Stream& stream, ExactTick& tick, const ExactContext& context) {
   const ExactStart& start = *context.start;
   std::int64_t last = -1;
+  mark(stream, "told.count");
   if (!size(stream, tick.told)) return false;
   for (ExactTold& each : tick.told) {
+    mark(stream, "told.rank");
     if (!rising(stream, each.rank, last, context.class_of.size())) return false;
     const ExactClass& kind = start.classes[context.class_of[each.rank]];
     if (kind.kind == physics::BodyKind::post ||
@@ -183,6 +192,7 @@ bool exchange_changes(Stream& stream, ExactTick& tick, const ExactContext& conte
       return false;
   }
   last = -1;
+  mark(stream, "exits");
   if (!size(stream, tick.exits)) return false;
   for (ExactExit& each : tick.exits)
     if (!rising(stream, each.rank, last, context.class_of.size()) || !stream.flag(each.lingers) ||
@@ -190,10 +200,12 @@ bool exchange_changes(Stream& stream, ExactTick& tick, const ExactContext& conte
         (each.is_at_start && !stream.flag(each.is_removed)))
       return false;
   last = -1;
+  mark(stream, "returns");
   if (!size(stream, tick.returns)) return false;
   for (std::uint32_t& rank : tick.returns)
     if (!rising(stream, rank, last, context.class_of.size())) return false;
   last = -1;
+  mark(stream, "entries.count");
   return size(stream, tick.entries) && std::ranges::all_of(tick.entries, [&](ExactEntry& each) {
            return exchange_entry(stream, each, start, tick.time, last);
          });
@@ -248,14 +260,18 @@ bool exchange(Stream& stream, ExactTick& tick, ExactContext context, std::vector
        has_changes = !tick.told.empty() || !tick.exits.empty() || !tick.returns.empty() ||
                      !tick.entries.empty(),
        has_felt = tick.felt.has_value(), has_hash = tick.hash.has_value();
+  mark(stream, "flags");
   if (!stream.flag(has_start)) return false;
   if (has_start) {
+    mark(stream, "start");
     if constexpr (Stream::is_reading) tick.start.emplace();
     if (!exchange(stream, *tick.start)) return false;
     context = {.start = &*tick.start};
   }
-  if (context.start == nullptr || !exchange_instant(stream, tick, context) ||
-      !stream.flag(has_keys) || !stream.flag(has_changes) || !stream.flag(has_felt) ||
+  mark(stream, "instant");
+  if (context.start == nullptr || !exchange_instant(stream, tick, context)) return false;
+  mark(stream, "flags");
+  if (!stream.flag(has_keys) || !stream.flag(has_changes) || !stream.flag(has_felt) ||
       !stream.flag(has_hash))
     return false;
   if (has_keys && !exchange_keys(stream, tick, context, drives)) return false;
@@ -264,8 +280,10 @@ bool exchange(Stream& stream, ExactTick& tick, ExactContext context, std::vector
     if (has_felt) tick.felt.emplace();
     if (has_hash) tick.hash.emplace();
   }
-  return (!has_felt || small(stream, *tick.felt, 0xffffffff, 8)) &&
-         (!has_hash || stream.bits(*tick.hash, 32));
+  mark(stream, "felt");
+  if (has_felt && !small(stream, *tick.felt, 0xffffffff, 8)) return false;
+  mark(stream, "hash");
+  return !has_hash || stream.bits(*tick.hash, 32);
 }
 
 }  // namespace exact

@@ -183,9 +183,14 @@ bool speed(Stream& stream, std::int64_t& value) {
 
 template <class Stream>
 bool exchange(Stream& stream, GridFlight& f, const ExactInstant& instant) {
-  return count(stream, f.ago, std::uint64_t{1} << 40, 3) &&
-         place(stream, f.x, instant.spec.field.length) &&
-         place(stream, f.y, instant.spec.field.width) && speed(stream, f.vx) && speed(stream, f.vy);
+  mark(stream, "state.time");
+  if (!count(stream, f.ago, std::uint64_t{1} << 40, 3)) return false;
+  mark(stream, "state.position");
+  if (!place(stream, f.x, instant.spec.field.length) ||
+      !place(stream, f.y, instant.spec.field.width))
+    return false;
+  mark(stream, "state.velocity");
+  return speed(stream, f.vx) && speed(stream, f.vy);
 }
 
 /// Where and when its flight began, and how: on the network grid in short, else every bit.
@@ -194,11 +199,17 @@ bool exchange_flight(Stream& stream, physics::Flight& f, const ExactInstant& ins
   using physics::MotionGrid;
   std::optional<GridFlight> short_form;
   if constexpr (!Stream::is_reading) short_form = on_grid(f, instant);
+  mark(stream, "state.form");
   bool is_on_grid = short_form.has_value();
   if (instant.grid.exist() && !stream.flag(is_on_grid)) return false;
-  if (!is_on_grid)
-    return near(stream, f.x, 3) && near(stream, f.y, 2) && near(stream, f.vx, -1) &&
-           near(stream, f.vy, -1) && like(stream, f.time, instant.now);
+  if (!is_on_grid) {
+    mark(stream, "state.position");
+    if (!near(stream, f.x, 3) || !near(stream, f.y, 2)) return false;
+    mark(stream, "state.velocity");
+    if (!near(stream, f.vx, -1) || !near(stream, f.vy, -1)) return false;
+    mark(stream, "state.time");
+    return like(stream, f.time, instant.now);
+  }
   if constexpr (Stream::is_reading) short_form.emplace();
   if (!exchange(stream, *short_form, instant)) return false;
   if constexpr (Stream::is_reading) {
@@ -251,6 +262,7 @@ bool exchange(Stream& stream, ExactState& state, const ExactClass& exact_class,
               const ExactInstant& instant) {
   const auto& [spec, grid, now] = instant;
   const bool is_bat = exact_class.kind == physics::BodyKind::bat;
+  mark(stream, "state.drive");
   if (is_bat && !exchange(stream, state.drive)) return false;
   physics::BodyState own = body_of(exact_class, spec);
   own.thrust = exact_class.thrust * physics::Vector2(state.drive.x, state.drive.y);
@@ -264,7 +276,9 @@ bool exchange(Stream& stream, ExactState& state, const ExactClass& exact_class,
                b.mouth == 0 && are_impacts_over(b, now, spec.contact_time) &&
                are_hops_over(b, now, spec.contact_time);
   }
-  return exchange_flight(stream, state.body.flight, instant) && stream.flag(is_plain) &&
+  if (!exchange_flight(stream, state.body.flight, instant)) return false;
+  mark(stream, "state.rest");
+  return stream.flag(is_plain) &&
          (is_plain || exchange_rest(stream, state, own, now, spec.contact_time));
 }
 

@@ -1,10 +1,13 @@
 """Reads a recorded conversation with the RTI by docs/wire.md alone, and prints each message as one line. Python's standard library only.
 
     second_reader.py MODEL.xml SESSION [KEY]
+    second_reader.py MODEL.xml SESSION --sizes
+
 
 SESSION is a sequence of records: 'u' (from the federate) or 'd' (from the RTI), connection u32, length u32, bytes; 'U' and 'D' for UDP datagrams, 'X' and 'Y' for those
 that were lost on their way. The lines of one connection and direction stand together, in the order in which they were sent; then those of datagrams in theirs. Whatever the
-page does not explain ends the program with an error: every byte is accounted for. KEY is the key file of a session that begins with the admission.
+page does not explain ends the program with an error: every byte is accounted for. --sizes prints only how many bytes the messages of each kind take in each direction,
+kind 0 being the heads of frames. KEY is the key file of a session that begins with the admission.
 """
 import math
 import struct
@@ -613,19 +616,22 @@ def frames_of(stream, direction, admission=None):
             yield from frames_of(admission.opened(direction, [record for _, record in raw]), direction)
 
 
-def read_frame(frame, model, connection, direction):
+def read_frame(frame, model, connection, direction, sizes=None):
     reader, lines = Reader(frame, model, connection), []
     table = UP if direction == "u" else DOWN
     while not reader.is_at_end():
-        kind = reader.u8()
+        start, kind = reader.at, reader.u8()
         assert kind in table, "kind %d of direction %s is not in docs/wire.md" % (kind, direction)
         lines += table[kind](reader)
+        if sizes is not None:
+            sizes[direction, kind] = sizes.get((direction, kind), 0) + reader.at - start
     connection.keyframes.end_frame()
     return lines
 
 
 def main(model_path, session_path, key_path=None):
-    model, secret = Model(model_path), open(key_path, "rb").read() if key_path else None
+    sizes = {} if key_path == "--sizes" else None
+    model, secret = Model(model_path), open(key_path, "rb").read() if key_path and sizes is None else None
     with open(session_path, "rb") as file:
         records = list(records_of(file.read()))
     streams, connections = {}, {}
@@ -646,8 +652,15 @@ def main(model_path, session_path, key_path=None):
         for frame in frames_of(stream, direction, connection.admission):
             is_counted = connection.frames[direction] > 0 or frame[0] in (1, 64)  # from the one that asks to join, or lets in, on
             connection.frames[direction] += is_counted
-            for line in read_frame(frame, model, connection, direction):
-                print("%d%s %s" % (number, direction, line))
+            for line in read_frame(frame, model, connection, direction, sizes):
+                if sizes is None:
+                    print("%d%s %s" % (number, direction, line))
+            if sizes is not None:
+                sizes[direction, 0] = sizes.get((direction, 0), 0) - len(frame)
+        if sizes is not None:
+            sizes[direction, 0] += len(stream)
+    for (direction, kind), size in sorted((sizes or {}).items()):
+        print("size %s %d %d" % (direction, kind, size))
     for letter, number, data in records:
         if letter in "UDXY":
             connection, direction = connections[number], "u" if letter in "UX" else "d"
