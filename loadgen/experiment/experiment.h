@@ -149,6 +149,9 @@ struct Experiment {
   Baseline baseline() const { return {baseline_scheme, baseline_policy, baseline_others}; }
   std::vector<std::uint32_t> server_cores{1};  ///< 1: the server on a processor of its own, the
                                                ///< bots on the others; 2: both wherever they like
+  /// Whether runs say where their payload goes, by message and field. Unless the file says so, in
+  /// virtual time, where it costs no run anything.
+  bool counts_fields = false;
   Design design = Design::matrix;
   Population population = Population::fixed;
   KeySource keys = KeySource::replay;

@@ -82,6 +82,9 @@ void read_setting(ExperimentReader& reader, Experiment& result, const std::files
                                 {"shm", TransportKind::shared_memory},
                                 {"bundle", TransportKind::bundle},
                                 {"virtual", TransportKind::virtual_time}});
+  std::vector<double> counts_fields{result.transport == TransportKind::virtual_time ? 1.0 : 0.0};
+  reader.switches("bytes_by_field", counts_fields);
+  result.counts_fields = counts_fields.front() != 0.0;
   if (result.transport != TransportKind::bundle)
     reader.refuse_idle("bundles", "clients share sockets under transport = \"bundle\" alone");
   if (const auto bundles = reader.whole_number("bundles", 1, 10'000))

@@ -200,6 +200,28 @@ void fill_bytes(RunRecord& record, ReportReader& server, ReportReader& bots) {
                                        per(by_bots.acknowledgements, bots_measured_s));
 }
 
+/// Rows of another shape are left out, so that the sum no longer is the payload.
+void fill_fields(RunRecord& record, const nlohmann::json& server) {
+  record.fields.clear();
+  const auto rows = server.is_object() ? server.find(report::bytes_by_field) : server.end();
+  if (rows == server.end() || !rows->is_array() || record.measured_s.value_or(0.0) <= 0.0) return;
+  const double clients_s = *record.measured_s * std::max(1u, record.cell.clients);
+  for (const nlohmann::json& row : *rows) {
+    const auto text = [&row](const char* key) {
+      return row.is_object() && row.contains(key) && row[key].is_string()
+                 ? row[key].get<std::string>()
+                 : std::string();
+    };
+    const auto amount = [&row](const char* key) {
+      return row.is_object() && row.contains(key) && row[key].is_number() ? row[key].get<double>()
+                                                                          : 0.0;
+    };
+    if (text("form").empty()) continue;
+    record.fields.push_back({text("direction"), text("channel"), text("form"), text("field"),
+                             amount("bits") / 8.0 / clients_s, amount("times") / clients_s});
+  }
+}
+
 /// The busiest node is the server where there is one, since all traffic passes it; several nodes,
 /// and peers, report that of the busiest.
 void fill_nodes(RunRecord& record, ReportReader& server) {
@@ -308,6 +330,7 @@ void judge(RunRecord& record, const nlohmann::json& server_report,
   fill_bytes(record, server, bots);
   fill_nodes(record, server);
   fill_from_bots(record, bots);
+  fill_fields(record, server_report);
   check(record, server, bots, complaints);
   std::vector<std::string> once;
   for (const std::string& complaint : complaints) {

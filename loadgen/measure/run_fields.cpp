@@ -27,6 +27,12 @@ class LineWriter {
     visit_fields(part, figures);
     line[key] = std::move(part.line);
   }
+  void field(const char* key, const std::vector<FieldFigures>& fields) {
+    line[key] = nullptr;
+    for (const FieldFigures& each : fields)
+      line[key].push_back({each.direction, each.channel, each.form, each.field,
+                           each.bytes_per_client_per_s, each.times_per_client_per_s});
+  }
   void text_or_null(const char* key, const std::string& text) {
     line[key] = text.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(text);
   }
@@ -80,6 +86,21 @@ class LineReader {
     visit_fields(part, into);
     if (complaint_.empty() && !part.complaint_.empty())
       complaint_ = std::string(key) + "." + part.complaint_;
+  }
+
+  /// Lines of before there were any have none.
+  void field(const char* key, std::vector<FieldFigures>& into) {
+    const nlohmann::json* value = find(key);
+    if (value == nullptr || value->is_null()) return into.clear();
+    if (!value->is_array()) return complain(key, "an array or null");
+    into.reserve(value->size());
+    for (const nlohmann::json& row : *value) {
+      const auto is_text = [&row](std::size_t k) { return row[k].is_string(); };
+      if (!row.is_array() || row.size() != 6 || !is_text(0) || !is_text(1) || !is_text(2) ||
+          !is_text(3) || !row[4].is_number() || !row[5].is_number())
+        return complain(key, "rows of four texts and two numbers");
+      into.push_back({row[0], row[1], row[2], row[3], row[4], row[5]});
+    }
   }
 
   void text_or_null(const char* key, std::string& into) { field(key, into); }

@@ -134,6 +134,7 @@ void visit_fields(Line& line, Record& run) {
   line.field("nodes", run.cell.parameters.nodes);
   line.field("output_rate_hz", run.cell.parameters.output_rate_hz);
   line.field("between_nodes_bytes_per_s", run.nodes.between_bytes_per_s);
+  line.field("bytes_by_field", run.fields);
 }
 
 /// One line of runs.jsonl, keys in the documented order.

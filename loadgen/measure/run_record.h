@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "loadgen/experiment/experiment.h"
 #include "loadgen/measure/statistics/histogram.h"
@@ -33,6 +34,12 @@ struct SentAmounts {
 /// Traffic by purpose, in bytes for each client (or peer) and second (docs/metrics.md, "Nodes").
 struct TrafficFigures {
   std::optional<double> halo, claims, agreement, interest, updates, keys, standby;
+};
+
+/// What one field of messages takes, both ways apart (docs/wire.md).
+struct FieldFigures {
+  std::string direction, channel, form, field;
+  double bytes_per_client_per_s = 0.0, times_per_client_per_s = 0.0;
 };
 
 /// The load of the busiest node: the server, one of several, or one of the peers.
@@ -86,6 +93,7 @@ struct RunRecord {
   Percentiles tick_us;  ///< wall time of whole ticks
   TruthFigures truth;
   TrafficFigures traffic;
+  std::vector<FieldFigures> fields{};  ///< their sum is the payload; empty if nobody asked
   NodeFigures nodes;
   GeneratorHealth health;
   std::string transport, players;

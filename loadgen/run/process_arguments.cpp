@@ -50,6 +50,7 @@ std::vector<std::string> serve_arguments(const Experiment& experiment, const Cel
   if (experiment.keys == KeySource::replay) add("--keys", key_log.string());
   if (experiment.start_s > 0.0) add("--from-state", state_file_of(key_log).string());
   add("--report", report.string());
+  if (experiment.counts_fields) arguments.emplace_back("--bytes-by-field");
   return arguments;
 }
 

@@ -30,6 +30,7 @@
 #include "loadgen/run/virtual_parts.h"
 #include "rti/transport/modelled/virtual_network.h"
 #include "rti/transport/socket_transport.h"
+#include "rti/transport/staged/ledger_stage.h"
 
 namespace rink::loadgen {
 namespace {
@@ -75,6 +76,7 @@ class VirtualRun {
   void show_trace();
   void start();
   void play();
+  game::ServingCounts counts() const;
 
   const RunnerSettings& settings_;
   const Experiment& experiment_;
@@ -85,6 +87,10 @@ class VirtualRun {
   rti::NetworkModel model_;
   rti::VirtualNetwork network_;
   rti::VirtualEndpoint server_end_{network_}, bots_end_{network_};
+  struct {
+    rti::StagedTransport transport;
+    rti::LedgerStage* ledger = nullptr;  ///< null unless the report says where the bytes go
+  } clients_{rti::StagedTransport(server_end_)};
   game::Serving serving_;
   game::Server& server_;
   BotCrowd crowd_;
@@ -170,7 +176,8 @@ VirtualRun::VirtualRun(const RunnerSettings& settings, const Experiment& experim
   }
   if (experiment.network_carries_datagrams) network_.carry_datagrams();
   server_end_.listen(server_name);
-  serving_.host().add(server_end_);
+  if (experiment.counts_fields) clients_.ledger = &game::add_ledger(clients_.transport, fom);
+  serving_.host().add(clients_.transport);
 }
 
 std::int64_t VirtualRun::next_instant_ns() const {
@@ -252,12 +259,12 @@ void VirtualRun::play() {
     const double simulated_s = static_cast<double>(number) / rate_hz;
     advance_until(start_ns_ + nanoseconds(simulated_s));
     if (ticks_ == 0 && simulated_s >= experiment_.warm_up_s) {
-      begin_ = counts_of(serving_, rti::with_datagrams(server_end_.totals()));
+      begin_ = counts();
       measured_from_ns_ = network_.now_ns();
     }
     if (number ==
         last) {  // it closes the span and is not in it: n ticks, and the n periods that they begin
-      end_ = counts_of(serving_, rti::with_datagrams(server_end_.totals()));
+      end_ = counts();
       measured_until_ns_ = network_.now_ns();
     }
     serving_.tick(experiment_.start_s + simulated_s, now_s());
@@ -268,6 +275,12 @@ void VirtualRun::play() {
   }
   advance_until(start_ns_ + nanoseconds(played_s) + 4 * settling_ns(experiment_) +
                 1);  // the last answers
+}
+
+game::ServingCounts VirtualRun::counts() const {
+  game::ServingCounts counts = counts_of(serving_, rti::with_datagrams(server_end_.totals()));
+  if (clients_.ledger != nullptr) counts.fields = clients_.ledger->rows();
+  return counts;
 }
 
 void VirtualRun::run() {

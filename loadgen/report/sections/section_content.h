@@ -85,6 +85,8 @@ std::pair<double, double> zoomed(double low, double high);
 
 /// Bytes by purpose, stacked.
 SectionContent bytes_by_kind_content(const Findings& findings);
+/// Payload by message and field; nothing if no run has counted them.
+SectionContent bytes_by_field_content(const Findings& findings);
 /// The displayed error's distribution function; nothing if no run left one.
 void add_error_distribution(SectionContent& content, const Findings& findings);
 /// Recall by the delay of parts that are otherwise alike; nothing if there are no such parts.

@@ -107,6 +107,7 @@ SectionContent traffic_content(const Findings& findings) {
                        "closer where headers outweigh payload."});
   content.html += "</div>\n";
   content.add(bytes_by_kind_content(findings));
+  content.add(bytes_by_field_content(findings));
   return content;
 }
 

@@ -35,6 +35,33 @@ TEST(RunRecord, RatesArePerClientAndSecondAndHeadersAreAdded) {
   EXPECT_FALSE(record.key_to_effect_ms.p90);
 }
 
+/// Both ways, and read back as it was written.
+TEST(RunRecord, HasABytesRateForEachFieldThatTheServerCounted) {
+  nlohmann::json server = canned_server_report(cell);
+  EXPECT_TRUE(judged(server, canned_bots_report(cell)).fields.empty());
+  server["bytes_by_field"] = {{{"direction", "down"},
+                               {"channel", "stream"},
+                               {"form", "residuals"},
+                               {"field", "trajectory.position"},
+                               {"bits", 8'004},
+                               {"times", 900}},
+                              7};
+  const RunRecord record = judged(server, canned_bots_report(cell));
+  ASSERT_EQ(record.fields.size(), 1u);
+  EXPECT_DOUBLE_EQ(record.fields[0].bytes_per_client_per_s, 8'004 / 8.0 / 10.0 / 2.0);
+  EXPECT_DOUBLE_EQ(record.fields[0].times_per_client_per_s, 900 / 10.0 / 2.0);
+  nlohmann::json line = nlohmann::json::parse(to_json(record).dump());
+  std::string complaint;
+  const auto read = run_record_from_json(line, complaint);
+  ASSERT_TRUE(read) << complaint;
+  EXPECT_EQ(to_json(*read), to_json(record));
+  line["bytes_by_field"][0][4] = "much";
+  EXPECT_FALSE(run_record_from_json(line, complaint));
+  EXPECT_THAT(complaint, HasSubstr("bytes_by_field"));
+  line.erase("bytes_by_field");
+  EXPECT_TRUE(run_record_from_json(line, complaint)) << "a line of before: " << complaint;
+}
+
 TEST(RunRecord, WhatIsNeitherStateNorKeyIsControl) {
   nlohmann::json server = canned_server_report(cell);
   const nlohmann::json bots = canned_bots_report(cell);

@@ -102,6 +102,25 @@ TEST(Gains, AreOverTheBaselineOfTheSameView) {
   EXPECT_EQ(compared, 3);
 }
 
+TEST(BytesByField, AreATableWhoseLastRowIsThePayload) {
+  const Experiment experiment = small_experiment();
+  std::vector<RunRecord> runs = two_by_two();
+  EXPECT_TRUE(bytes_by_field_content(findings_of(experiment, runs)).tables.empty())
+      << "nobody has counted";
+  for (RunRecord& run : runs)
+    run.fields = {{"down", "stream", "updates", "position", 1000.25, 60.0},
+                  {"up", "datagram", "modify_regions", "<regions>", 500.5, 20.0},
+                  {"down", "stream", "frame", "head", 0.25, 20.0}};
+  const SectionContent content = bytes_by_field_content(findings_of(experiment, runs));
+  EXPECT_THAT(content.html,
+              AllOf(HasSubstr("<td class=\"text\">payload</td><td class=\"text\"></td><td "
+                              "class=\"text\"></td><td>1501</td>"),
+                    HasSubstr("all others"), HasSubstr("up, datagram"),
+                    HasSubstr("&lt;regions&gt;"), Not(HasSubstr("<td class=\"text\">head</td>"))));
+  ASSERT_EQ(content.tables.size(), 1u);
+  EXPECT_EQ(content.tables[0].rows.size(), 4u * 3) << "every field of every cell";
+}
+
 TEST(Gains, ADifferenceWithinTheScatterIsCalledNotSignificant) {
   const Experiment experiment = small_experiment();
   std::vector<RunRecord> runs;

@@ -114,7 +114,7 @@ TEST(Tidy, EveryNumberThatARunHasIsAFigureOrASetting) {
     if (value.is_object()) {
       for (const auto& member : value.items())
         EXPECT_THAT(known, Contains(field + "_" + member.key()));
-    } else if (!texts.contains(field)) {
+    } else if (!texts.contains(field) && field != "bytes_by_field") {  // it has a file of its own
       EXPECT_THAT(known, Contains(field));
     }
   }
