@@ -14,6 +14,7 @@ import struct
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import second_reader_exact as exact
 import second_reader_parts as parts
 
 ALL_ONES = 0xFFFFFFFF
@@ -457,6 +458,11 @@ class Reader:
         number = self.varint()
         return ["class_relevance %s %s %s" % (self.object_class(number), self.attributes(number, self.attribute_bits()), self.attributes(number, self.attribute_bits()))]
 
+    def host_message(self):
+        """Those of the shipped model's host are of the policy "exact"."""
+        content = self.take(self.varint())
+        return self.connection.exact.read(content, Bits) if self.model.codecs else ["host_message " + content.hex()]
+
     def execution(self):
         if self.u8() == 1:
             return ["execution list ends"]
@@ -527,7 +533,7 @@ DOWN = {
     64: lambda r: ["joined %d %d" % (r.u32(), r.u32())],
     120: lambda r: ["expelled " + r.text()],
     121: lambda r: ["further_block %d" % r.u32()],
-    122: lambda r: ["host_message " + r.take(r.varint()).hex()],
+    122: Reader.host_message,
     65: lambda r: ["refused %d %s" % (r.u8(), r.text())],
     66: lambda r: ["announced %s %s" % (r.text(), r.short_bytes())],
     67: lambda r: ["synchronized %s %s" % (r.text(), r.handles())],
@@ -574,7 +580,7 @@ class Connection:
 
     def __init__(self, secret):
         self.keyframes, self.admission, self.way = parts.Keyframes(), parts.Admission(secret), parts.Way()
-        self.frames = {"u": 0, "d": 0}
+        self.frames, self.exact = {"u": 0, "d": 0}, exact.ExactConversation()
         self.last_stamp = [0.0, 0, 0.0, 0]  # time, tag, and a step of each
         self.entry_header = None  # class, attributes, repeated and recalled ones of the last block of entries
         self.entry_values = {}  # by class and attribute: the values that entries brought last, the newest first
