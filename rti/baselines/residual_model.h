@@ -10,6 +10,7 @@
 #include "rti/fom/attribute_codec.h"
 #include "rti/fom/fom.h"
 #include "rti/wire/bit_stream.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -18,6 +19,10 @@ namespace rink::rti {
 struct FormerValues {
   AttributeSet held;
   std::vector<std::byte> bytes;  ///< at the class's offsets
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, held, bytes);
+  }
 };
 
 /// An update of one object that residuals of others may refer to.

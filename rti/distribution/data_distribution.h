@@ -13,6 +13,7 @@
 #include "rti/distribution/scopes.h"
 #include "rti/objects/object_table.h"
 #include "rti/types.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -24,6 +25,10 @@ enum class RegionAction : std::uint8_t { remove, add, request_update, add_passiv
 struct Subscription {
   AttributeSet subscribed, active;
   friend bool operator==(const Subscription&, const Subscription&) = default;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, subscribed, active);
+  }
 };
 /// How a federate subscribes to an interaction class; the numbers are those on the wire.
 enum class Listening : std::uint8_t { none, active, passive };

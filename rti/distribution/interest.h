@@ -82,6 +82,9 @@ class Interest : public DataDistribution {
   const DistributionCounters& counters() const override { return counters_; }
   void list_regions_of_interest(std::vector<RegionOfInterest>& regions) const override;
   const im::Filter& filter() const override { return *filter_; }
+  /// For who keeps the state of a federation (rti/save).
+  const RegionTable& regions() const { return regions_; }
+  const Subscriptions& subscriptions() const { return subscriptions_; }
 
  private:
   void take(const Reassociation& change);

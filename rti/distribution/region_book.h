@@ -13,6 +13,7 @@
 #include "rti/fom/fom.h"
 #include "rti/hla_error.h"
 #include "rti/objects/object_map.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -88,6 +89,10 @@ class RegionBook {
   void forget(ObjectHandle object);
 
   std::size_t memory_bytes() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, mark_, entries_, free_, templates_, subscriptions_, whole_, partial_);
+  }
 
  private:
   static constexpr std::uint32_t number_mask = (1u << number_bits) - 1;
@@ -95,14 +100,26 @@ class RegionBook {
     im::Region plane;
     std::uint32_t use_count = 0;  ///< subscriptions and associations
     bool exists = false, is_planar = true;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, plane, use_count, exists, is_planar);
+    }
   };
   struct Template {
     DimensionSet dimensions;
     std::vector<std::optional<Range>> ranges;  ///< by rank
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, dimensions, ranges);
+    }
   };
   struct Association {
     std::uint32_t region = 0;
     AttributeSet attributes;  ///< all: of the whole object
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, region, attributes);
+    }
   };
   static std::string name(RegionHandle region);
   std::size_t rank(const Template& all, RegionHandle region, DimensionHandle dimension) const;

@@ -39,6 +39,10 @@ class JoinPhase {
     phase_ = Phase::joined;
     federate_ = federate;
   }
+  void restored(FederateHandle federate) {
+    assert(is_joined());
+    federate_ = federate;
+  }
   void end() { phase_ = Phase::ended; }
 
  private:

@@ -13,6 +13,7 @@
 #include "rti/federation/joined_federate.h"
 #include "rti/handles.h"
 #include "rti/wire/bytes.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -57,6 +58,11 @@ class FederateTable {
   void give_back(std::uint32_t block) {
     assert(block < next_block_);
     free_blocks_.push_back(block);
+  }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, federates_, free_, free_blocks_, next_block_, joined_count_,
+                    slot_of_handle_, names_);
   }
 
  private:

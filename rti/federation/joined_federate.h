@@ -23,6 +23,7 @@
 #include "rti/wire/bytes.h"
 #include "rti/wire/entry_block.h"
 #include "rti/wire/stamp_steps.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -46,5 +47,12 @@ struct JoinedFederate {
   bool has_stream_only = false;     ///< no datagrams, whatever its connection could carry
   std::unique_ptr<DatagramChannel> channel;  ///< null until it has one
 };
+
+/// What outlasts the connection.
+template <class Stream>
+bool keep(Stream& stream, JoinedFederate& federate) {
+  return keep_all(stream, federate.is_joined, federate.is_watching, federate.handle, federate.block,
+                  federate.name, federate.type, federate.outbox);
+}
 
 }  // namespace rink::rti

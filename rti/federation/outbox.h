@@ -7,6 +7,7 @@
 
 #include "rti/wire/bytes.h"
 #include "rti/wire/object_block.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -36,6 +37,12 @@ class Outbox {
     head_.clear();
     tail_.clear();
     tail_block_.close();
+  }
+  /// The block at the end is closed.
+  template <class Stream>
+  bool keep(Stream& stream) {
+    tail_block_.close();
+    return keep_all(stream, head_, tail_);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rti/handles.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -18,6 +19,11 @@ struct SynchronizationPoint {
   std::vector<std::uint32_t> members;  ///< slots of the federates in its set
   std::vector<std::uint32_t> awaited;  ///< those of them that have not achieved it
   std::vector<FederateHandle> failed;  ///< those that reported that they could not
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, label, tag, registrar, is_for_all, members, awaited, failed);
+  }
 };
 
 }  // namespace rink::rti

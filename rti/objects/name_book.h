@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "rti/objects/object_map.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -71,6 +72,10 @@ class NameBook {
   }
   std::size_t memory_bytes() const {
     return names_.memory_bytes() + objects_.size() * (sizeof(std::string) + 64);
+  }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, reserved_, names_, objects_);
   }
 
  private:

@@ -10,6 +10,7 @@
 #include "rti/fom/fom.h"
 #include "rti/objects/bitmap.h"
 #include "rti/wire/bytes.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -33,6 +34,12 @@ struct Object {
   std::string name;
   std::vector<std::byte> fixed;  ///< coded values of fixed size, at the class's offsets
   std::vector<std::vector<std::byte>> varying;  ///< coded values of varying size, by attribute
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, handle, owner, negotiation, object_class, is_alive, is_leaving, valued,
+                    changed_static, name, fixed, varying);
+  }
 };
 
 /// Latest values serve federates that join late or get an object into scope; storing one touches
@@ -97,6 +104,10 @@ class ObjectTable {
   /// Asserts that handles and slots lead to each other, that each slot is alive, leaving or free,
   /// and that counts are right.
   void check() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, classes_, objects_, free_, leaving_, blocks_, size_);
+  }
 
  private:
   struct Block {
@@ -104,6 +115,10 @@ class ObjectTable {
     std::uint32_t registered = 0;   ///< numbers below were used; they come in order
     std::uint32_t alive = 0;
     bool is_closed = false;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, slots, registered, alive, is_closed);
+    }
   };
   Block& block_of(ObjectHandle handle);
   struct Layout {
@@ -116,6 +131,10 @@ class ObjectTable {
   struct Members {
     Bitmap slots;
     std::size_t count = 0;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, slots, count);
+    }
   };
   std::vector<Members> classes_;  ///< by class
   const Fom& fom_;

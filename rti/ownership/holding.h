@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "rti/types.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -24,6 +25,10 @@ struct Holding {
   AttributeSet acquiring;    ///< by attribute ownership acquisition
   AttributeSet acquiring_if_available;
   AttributeSet pending() const { return acquiring | acquiring_if_available; }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, owned, offered, confirmable, acquiring, acquiring_if_available);
+  }
 
   void gain(AttributeSet attributes) {
     owned = owned | attributes;

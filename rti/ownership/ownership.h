@@ -10,6 +10,7 @@
 #include "rti/fom/fom.h"
 #include "rti/objects/object_table.h"
 #include "rti/wire/bytes.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -99,16 +100,28 @@ class Ownership {
   std::size_t record_count() const { return records_.size() - free_.size(); }
   /// Asserts the invariants above of all records, and that objects and records lead to each other.
   void check() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, records_, free_);
+  }
 
  private:
   struct Share {
     std::uint32_t federate;
     AttributeSet attributes;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, federate, attributes);
+    }
   };
   struct Claim {
     std::uint32_t federate;
     AttributeSet attributes;
     bool is_if_available;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, federate, attributes, is_if_available);
+    }
   };
   struct Record {
     ObjectSlot object = no_object;
@@ -116,6 +129,10 @@ class Ownership {
     AttributeSet offered, confirming;
     std::vector<Claim> claims;  ///< in the order of asking; none is empty
     std::vector<std::byte> tag;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, object, shares, offered, confirming, claims, tag);
+    }
   };
   const Record* find(ObjectSlot object) const;
   void check(const Record& record) const;

@@ -26,6 +26,11 @@ ConservativeTime::Clock& ConservativeTime::clock(std::uint32_t federate) {
   return clocks_[federate];
 }
 
+void ConservativeTime::weigh_all() {
+  for (LeastTree* tree : {&bounds_, &floors_, &lookaheads_, &needs_}) tree->widen(clocks_.size());
+  for (std::uint32_t i = 0; i < clocks_.size(); ++i) weigh(i);
+}
+
 bool ConservativeTime::enable_regulation(std::uint32_t federate, double lookahead) {
   Clock& mine = clock(federate);
   if (mine.is_regulating || mine.is_advancing || !is_valid_lookahead(lookahead)) return false;

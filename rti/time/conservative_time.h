@@ -7,6 +7,7 @@
 #include "rti/time/least_tree.h"
 #include "rti/time/time_management.h"
 #include "rti/time/time_queue.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -35,6 +36,12 @@ class ConservativeTime final : public TimeManagement {
   double time(std::uint32_t federate) const override;
   /// Asserts that the trees hold what follows from the clocks.
   void check() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    if (!keep_all(stream, clocks_)) return false;
+    if (Stream::is_reading) weigh_all();
+    return true;
+  }
 
  private:
   struct Clock {
@@ -51,6 +58,11 @@ class ConservativeTime final : public TimeManagement {
     double horizon =
         0.0;  ///< the least time stamp that may still reach it without being in its past
     TimeQueue queue;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, is_regulating, is_constrained, awaits_regulation, awaits_constraint,
+                      is_advancing, kind, asked, enabling, time, lookahead, floor, horizon, queue);
+    }
   };
   const Clock& clock(std::uint32_t federate) const;
   Clock& clock(std::uint32_t federate);
@@ -60,6 +72,7 @@ class ConservativeTime final : public TimeManagement {
   static double goal(const Clock& clock);
   double need(const Clock& clock) const;
   void weigh(std::uint32_t federate);
+  void weigh_all();
   double least_of_others(std::uint32_t federate, double bound) const;
   bool can_serve(std::uint32_t federate) const;
   void serve(std::uint32_t federate, TimeListener& listener);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "rti/time/logical_time.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -57,6 +58,12 @@ class FederateClock {
   /// advances, unless it asked to get them always (8.14).
   bool holds_receive_order() const {
     return is_constrained() && !is_advancing_ && !is_asynchronous_;
+  }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, is_regulating_, is_constrained_, awaits_regulation_, awaits_constraint_,
+                    is_advancing_, is_asynchronous_, kind_, time_, asked_, lookahead_, floor_,
+                    sent_count_, final_count_);
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "rti/time/logical_time.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -18,6 +19,10 @@ struct TimedEntry {
   std::uint32_t message = 0;  ///< the caller's number
   std::uint32_t place = 0;    ///< the caller's number of this receiver of the message
   friend auto operator<=>(const TimedEntry&, const TimedEntry&) = default;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, time, sender, number, message, place);
+  }
 };
 
 /// Receives deliveries and grants. Its functions may query the time management, but not change it.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rti/time/time_management.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -42,6 +43,10 @@ class TimeQueue {
     assert(std::is_heap(withdrawn_.begin(), withdrawn_.end(), std::greater<>()));
     assert(withdrawn_.size() <= waiting_.size());
     assert(withdrawn_.empty() || waiting_.front() < withdrawn_.front());
+  }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, waiting_, withdrawn_);
   }
 
  private:

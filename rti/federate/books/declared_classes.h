@@ -8,6 +8,7 @@
 
 #include "rti/distribution/data_distribution.h"
 #include "rti/fom/fom.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -49,12 +50,22 @@ class DeclaredClasses {
   std::size_t memory_bytes() const {
     return (objects_.capacity() + interactions_.capacity()) * sizeof(Class);
   }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    const std::size_t objects = objects_.size(), interactions = interactions_.size();
+    return keep_all(stream, objects_, interactions_) && objects_.size() == objects &&
+           interactions_.size() == interactions;
+  }
 
  private:
   struct Class {
     AttributeSet published;  ///< 1 for an interaction class
     Subscription others{AttributeSet::all(), {}};
     bool is_relevant = false;  ///< as the federate was last notified
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, published, others, is_relevant);
+    }
   };
   static std::optional<bool> turn(Class& declared, bool is_on);
   const Class& at(ObjectClassHandle object_class) const {

@@ -10,6 +10,7 @@
 
 #include "rti/objects/known_object.h"
 #include "rti/objects/object_map.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -76,6 +77,11 @@ class ObjectBook {
   void restore(ObjectHandle object, const KnownObject& known);
 
   std::size_t memory_bytes() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, block_, registered_count_, further_block_, former_blocks_, own_,
+                    others_, gone_);
+  }
 
  private:
   ObjectHandle handle(std::uint32_t number) const { return {block_ * object_block + number}; }

@@ -8,6 +8,7 @@
 #include "rti/federate/ambassador_basis.h"
 #include "rti/federate/books/object_book.h"
 #include "rti/ownership/holding.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -61,6 +62,10 @@ class OwnershipBook {
   void forget(ObjectHandle object) { holdings_.erase(object); }
 
   std::size_t memory_bytes() const { return holdings_.memory_bytes(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, holdings_, is_deleting_);
+  }
 
  private:
   Holding& open(ObjectHandle object);

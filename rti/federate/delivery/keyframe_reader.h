@@ -28,6 +28,8 @@ class KeyframeReader {
   bool handle_deltas(Reader& reader, const ReadContext& context);
   /// The frame has ended, and with it the keyframe in it, if any.
   void end_frame();
+  /// Keyframes of a restored federation have numbers of their own.
+  void forget_all() { keyframes_ = {}; }
   std::size_t memory_bytes() const { return keyframes_.memory_bytes() + decoded_.capacity(); }
 
  private:

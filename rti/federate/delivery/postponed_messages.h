@@ -8,6 +8,7 @@
 #include "rti/federate/read_context.h"
 #include "rti/fom/fom.h"
 #include "rti/wire/message.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -28,6 +29,10 @@ class PostponedMessages {
   /// The messages, one after the other.
   std::vector<std::byte> take() { return std::exchange(bytes_, {}); }
   std::size_t memory_bytes() const { return bytes_.capacity(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, bytes_);
+  }
 
  private:
   static constexpr std::size_t size_max = 64u << 20;  ///< [bytes]

@@ -11,6 +11,7 @@
 #include "rti/federate/delivery/update_arrivals.h"
 #include "rti/federate/read_context.h"
 #include "rti/objects/object_map.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -36,6 +37,10 @@ class ResidualReader {
   /// The RTI has removed the object.
   void forget(ObjectHandle object) { former_.erase(object); }
   std::size_t memory_bytes() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, former_);
+  }
 
  private:
   struct Block {

@@ -6,6 +6,7 @@
 
 #include "rti/federate/delivery/frame_outbox.h"
 #include "rti/fom/fom.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -28,6 +29,11 @@ class SentUpdates {
   }
   const Stamp& newest() const { return newest_; }  ///< of the latest update, be it kept back
   std::size_t memory_bytes() const { return attributes_.capacity() * sizeof attributes_[0]; }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    const std::size_t classes = attributes_.size();
+    return keep_all(stream, attributes_, newest_) && attributes_.size() == classes;
+  }
 
  private:
   std::vector<AttributeSet> attributes_;  ///< by class

@@ -15,6 +15,7 @@
 #include "rti/federate/delivery/sent_updates.h"
 #include "rti/federate/delivery/update_arrivals.h"
 #include "rti/wire/datagram.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -64,6 +65,10 @@ class UpdateSender {
   std::span<const Datagram> datagrams(Bytes acknowledgement);
   void clear_datagrams();
   std::size_t memory_bytes() const;
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, made_reliable_);
+  }
 
  private:
   AttributeSet by_datagram(ObjectHandle object, ObjectClassHandle object_class) const;

@@ -6,6 +6,7 @@
 
 #include "rti/federate/ambassador_basis.h"
 #include "rti/federate/services/sparing.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -38,6 +39,10 @@ class FederateDeclarations {
   bool handle_class_relevance(Reader& reader);
   bool handle_object_relevance(Reader& reader);
   std::size_t memory_bytes() const { return relevant_objects_.memory_bytes(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, relevant_objects_, switches_);
+  }
 
  private:
   void advise(ObjectClassHandle object_class);

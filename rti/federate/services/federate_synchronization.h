@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rti/federate/ambassador_basis.h"
+#include "rti/wire/state_stream.h"
 #include "rti/wire/stream.h"
 
 namespace rink::rti {
@@ -23,6 +24,10 @@ class FederateSynchronization {
   bool handle_registered(Reader& reader);
   bool handle_announced(Reader& reader);
   bool handle_synchronized(Reader& reader);
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, announced_);
+  }
 
  private:
   AmbassadorBasis basis_;

@@ -11,6 +11,7 @@
 #include "rti/federate/services/federate_objects.h"
 #include "rti/federate/services/federate_updates.h"
 #include "rti/time/federate_clock.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -59,6 +60,10 @@ class FederateTime {
   bool handle_retraction(Reader& reader);
   bool handle_bounds(Reader& reader);
   std::size_t memory_bytes() const { return content_.capacity(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, clock_, order_changes_, interaction_orders_, deletions_);
+  }
 
  private:
   const KnownObject& require_known(ObjectHandle object) const;

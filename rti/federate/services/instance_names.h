@@ -11,6 +11,7 @@
 #include "rti/federate/books/object_book.h"
 #include "rti/objects/name_book.h"
 #include "rti/wire/object_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -37,6 +38,10 @@ class InstanceNames {
 
   bool handle_answer(Reader& reader);
   std::size_t memory_bytes() const { return names_.memory_bytes(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, names_);
+  }
 
  private:
   void ask(NameRequest request, std::span<const std::string_view> names);

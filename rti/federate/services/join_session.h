@@ -8,6 +8,7 @@
 
 #include "rti/federate/ambassador_basis.h"
 #include "rti/wire/membership_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -27,6 +28,12 @@ class JoinSession {
 
   /// The RTI has accepted the join.
   void joined(FederateHandle federate);
+  /// The federation is restored, in which the federate has this handle.
+  void restored(FederateHandle federate) { phase_.restored(federate); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, federates_);
+  }
   bool handle_refused(Reader& reader);
   /// Handles the digest of the federation's model, which precedes a refusal.
   bool handle_fom_digest(Reader& reader);

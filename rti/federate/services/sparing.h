@@ -44,6 +44,9 @@ class Sparing {
     if (!may_spare()) release_all();
   }
   void forget(ObjectHandle object) { values_.forget(object); }
+  void forget_all() {
+    for (const ObjectHandle each : values_.list({}, AttributeSet::all())) values_.forget(each);
+  }
   std::size_t memory_bytes() const { return values_.memory_bytes() + coded_.capacity(); }
 
  private:

@@ -17,6 +17,7 @@
 #include "rti/management/management_handles.h"
 #include "rti/management/management_values.h"
 #include "rti/ownership/ownership.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -53,6 +54,10 @@ class ManagementObjects {
   void switched() { federation_.is_due = static_cast<bool>(federation_.object); }
   /// Sends due reports; called once before each flush.
   void notify();
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, slot_, is_subscribed_, federation_, federates_, periods_, slots_);
+  }
 
  private:
   /// One object of the RTI's.
@@ -62,6 +67,10 @@ class ManagementObjects {
     bool is_due = false;
     double due_at = 0.0;  ///< the next report, if a period is set [s]
     unsigned state = 0;   ///< of time management, as last reported: a change is reported
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, object, asked, is_due, state);
+    }
   };
   void begin();
   void end();

@@ -79,6 +79,14 @@ void Declarations::subscriptions_changed(std::uint32_t slot) {
       advise_publishers(row);
 }
 
+void Declarations::restored() {
+  for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
+    for (std::size_t row = 0; basis_.federates[slot].is_joined && row < relevance_.row_count();
+         ++row)
+      relevance_.set(slot, row, subscribed(slot, row));
+  for (std::size_t row = 0; row < relevance_.row_count(); ++row) advise_publishers(row);
+}
+
 Subscription Declarations::subscribed(std::uint32_t slot, std::size_t row) const {
   const std::uint16_t number = number_of(row);
   return is_interaction(row) ? Relevance::of(uses_.interactions.listening(slot, number))
@@ -117,12 +125,15 @@ void Declarations::advise(std::uint32_t slot, std::size_t row) {
 void Declarations::advise_object_relevance() {
   std::vector<ObjectSlot>& touched = uses_.distribution.touched();
   if (touched.empty()) return;
-  uses_.distribution.watch_scope(
-      std::ranges::any_of(advised_, [](const Advised& each) { return each.objects != nullptr; }));
+  uses_.distribution.watch_scope(is_any_advised());
   make_sorted_set(touched);
   for (const ObjectSlot object : touched)
     if (basis_.objects[object].is_alive) advise_owners_of(object);
   touched.clear();
+}
+
+bool Declarations::is_any_advised() const {
+  return std::ranges::any_of(advised_, [](const Advised& each) { return each.objects != nullptr; });
 }
 
 void Declarations::advise_owners_of(ObjectSlot object) {

@@ -16,6 +16,7 @@
 #include "rti/federation/status.h"
 #include "rti/objects/object_map.h"
 #include "rti/wire/declaration_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -38,6 +39,9 @@ class Declarations {
   /// Notes the federate's present subscriptions, and advises the publishers concerned at once:
   /// later messages of the subscriber reach them after that.
   void subscriptions_changed(std::uint32_t slot);
+  /// Notes the present subscriptions of all federates of a restored federation, then advises
+  /// publishers that were advised otherwise.
+  void restored();
   /// True if anybody subscribes to the class.
   bool is_subscribed(ObjectClassHandle object_class) const {
     return !relevance_.of_others(no_federate, object_class.value).subscribed.is_empty();
@@ -47,6 +51,13 @@ class Declarations {
   void advise_object_relevance();
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot) { advised_[slot] = {}; }
+  /// What publishers were last advised; subscriptions are noted anew by `subscriptions_changed`.
+  template <class Stream>
+  bool keep(Stream& stream) {
+    if (!keep_all(stream, advised_)) return false;
+    if (Stream::is_reading) uses_.distribution.watch_scope(is_any_advised());
+    return true;
+  }
 
  private:
   /// The last advice to a publisher about its subscribers.
@@ -54,6 +65,10 @@ class Declarations {
     std::vector<Subscription> classes;                 ///< by row of `Relevance`
     std::unique_ptr<ObjectMap<AttributeSet>> objects;  ///< if it asked for it: those in others'
                                                        ///< scope
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, classes, objects);
+    }
   };
   Subscription subscribed(std::uint32_t slot, std::size_t row) const;
   Subscription others_subscribe(std::uint32_t slot, std::size_t row) const;
@@ -61,6 +76,8 @@ class Declarations {
   void advise_publishers(std::size_t row);
   void advise(std::uint32_t slot, std::size_t row);
   void advise_owners_of(ObjectSlot object);
+  /// True if some owner asked which of its objects are in others' scope.
+  bool is_any_advised() const;
   AttributeSet subscribed_of(std::uint32_t owner, ObjectSlot object) const;
   /// Rows of interaction classes follow those of object classes.
   bool is_interaction(std::size_t row) const { return row >= basis_.fom.object_classes().size(); }

@@ -13,6 +13,7 @@
 #include "rti/groups/group_communication.h"
 #include "rti/wire/declaration_messages.h"
 #include "rti/wire/region_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -52,6 +53,10 @@ class Interactions {
   void flushed();
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot);
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, federates_);
+  }
 
  private:
   /// About what an interaction takes beside its parameters [bytes].
@@ -66,6 +71,10 @@ class Interactions {
   struct Federate {
     std::vector<Listening> subscribed;  ///< by class, without regions
     std::size_t bytes_sent = 0;         ///< bytes since the last flush
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, subscribed);
+    }
   };
   std::vector<Federate> federates_;  ///< by slot
 };

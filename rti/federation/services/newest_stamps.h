@@ -8,6 +8,7 @@
 #include "rti/objects/object_table.h"
 #include "rti/ownership/ownership.h"
 #include "rti/types.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -48,6 +49,10 @@ class NewestStamps {
   }
   void forget(ObjectSlot object) {
     if (object < inherited_.size()) inherited_[object] = {};
+  }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, newest_, inherited_);
   }
 
  private:

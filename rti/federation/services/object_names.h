@@ -12,6 +12,7 @@
 #include "rti/federation/federate_table.h"
 #include "rti/federation/status.h"
 #include "rti/wire/object_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -29,6 +30,10 @@ class ObjectNames {
   void give_back(const std::string& name) { names_.erase(name); }
   /// Frees the names that the federate reserved and did not use.
   void left(std::uint32_t slot);
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, names_);
+  }
 
  private:
   bool reserve(FederateHandle federate, std::vector<std::string>& names);

@@ -17,6 +17,7 @@
 #include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/object_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -58,6 +59,10 @@ class ObjectService {
   void joined(std::uint32_t slot);
   /// Takes back the federate's blocks of which no handle was seen.
   void left(std::uint32_t slot);
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, federates_);
+  }
 
  private:
   /// A federate's registrations.
@@ -66,6 +71,10 @@ class ObjectService {
     std::optional<std::uint32_t> further_block;  ///< given for when this one is used up
     std::vector<std::uint32_t> former_blocks;    ///< used up
     std::size_t name_bytes = 0;                  ///< of all their names
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, count, further_block, former_blocks, name_bytes);
+    }
   };
   Registered& of(std::uint32_t slot);
   std::size_t alive(std::uint32_t slot) const;

@@ -14,6 +14,7 @@
 #include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/ownership_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -51,6 +52,10 @@ class OwnershipService {
   void joined(std::uint32_t slot);
   /// Divests or deletes what the federate owns, as it chose.
   void left(std::uint32_t slot);
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, has_moved_, resign_actions_);
+  }
 
  private:
   Status take(std::uint32_t slot, const OwnershipRequestMessage& message, ObjectHandle handle);

@@ -8,6 +8,7 @@
 
 #include "rti/fom/fom.h"
 #include "rti/types.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -45,11 +46,19 @@ class Publications {
     assert(interaction_class < interaction_classes_);
     federates_[slot].interactions[interaction_class] = is_published;
   }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, federates_);
+  }
 
  private:
   struct Published {
     std::vector<AttributeSet> objects;  ///< by class
     std::vector<bool> interactions;     ///< by class
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, objects, interactions);
+    }
   };
   std::size_t object_classes_, interaction_classes_;
   std::vector<Published> federates_;  ///< by slot

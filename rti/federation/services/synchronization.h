@@ -11,6 +11,7 @@
 #include "rti/federation/status.h"
 #include "rti/federation/synchronization_point.h"
 #include "rti/wire/federation_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -29,6 +30,10 @@ class Synchronization {
   /// A federate that leaves is no longer waited for.
   void left(std::uint32_t slot);
   const std::vector<SynchronizationPoint>& points() const { return points_; }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, points_);
+  }
 
  private:
   std::optional<SynchronizationFailure> find_members(

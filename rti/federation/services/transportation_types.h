@@ -13,6 +13,7 @@
 #include "rti/objects/object_map.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/object_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -39,6 +40,10 @@ class TransportationTypes {
   }
   void joined(std::uint32_t slot);
   void left(std::uint32_t slot) { interactions_[slot].clear(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, objects_, interactions_);
+  }
 
  private:
   using ChangedInteractions = std::vector<std::pair<std::uint16_t, Transportation>>;

@@ -15,6 +15,7 @@
 #include "rti/federation/status.h"
 #include "rti/ownership/ownership.h"
 #include "rti/wire/object_messages.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -49,6 +50,11 @@ class UpdateRequests {
 
   bool is_auto_providing() const { return is_auto_providing_; }
   void provide_automatically(bool is_on) { is_auto_providing_ = is_on; }
+  /// Requests are settled before their state is kept.
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, is_auto_providing_);
+  }
   /// A request to the RTI itself, as the owner of the management objects.
   struct Asked {
     ObjectHandle object;

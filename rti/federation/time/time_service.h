@@ -13,7 +13,9 @@
 #include "rti/federation/time/timed_content.h"
 #include "rti/federation/time/timed_delivery.h"
 #include "rti/federation/time/timed_messages.h"
+#include "rti/time/conservative_time.h"
 #include "rti/time/time_management.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -58,11 +60,26 @@ class TimeService final : private TimeListener {
   /// The lookahead that the federate last asked for [s].
   double lookahead(std::uint32_t slot) const { return federates_[slot].lookahead; }
   bool is_advancing(std::uint32_t slot) const { return federates_[slot].is_advancing; }
+  /// False if time is managed by another than the RTI's own part.
+  template <class Stream>
+  bool keep(Stream& stream) {
+    bool is_used = management_ != nullptr;
+    if (!stream.truth(is_used)) return false;
+    if (Stream::is_reading && is_used)
+      management_ = make_ ? make_() : std::make_unique<ConservativeTime>();
+    auto* const own = dynamic_cast<ConservativeTime*>(management_.get());
+    return is_used == (own != nullptr) && (!is_used || own->keep(stream)) &&
+           keep_all(stream, federates_, messages_, delivery_, asking_);
+  }
 
  private:
   struct Federate {
     double lookahead = 0.0;
     bool is_advancing = false;  ///< in logical time
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, lookahead, is_advancing);
+    }
   };
 
   TimeManagement& begin(std::uint32_t slot);

@@ -15,6 +15,7 @@
 #include "rti/federation/services/object_service.h"
 #include "rti/federation/time/timed_messages.h"
 #include "rti/time/time_management.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -43,6 +44,10 @@ class TimedDelivery {
   void discard(const TimedEntry& entry);
   /// Removes a retracted message from all queues, and asks receivers that have it to take it back.
   void withdraw(std::uint32_t index, TimeManagement& management);
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, arrived_, stored_until_);
+  }
 
  private:
   void distribute(std::uint32_t index, TimeManagement& management);

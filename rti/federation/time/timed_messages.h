@@ -9,6 +9,7 @@
 #include "rti/federation_settings.h"
 #include "rti/types.h"
 #include "rti/wire/message.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::rti {
 
@@ -19,6 +20,10 @@ struct StampedMessage {
     AttributeSet attributes;  ///< of an update: the receiver's part
     bool is_waiting = false;  ///< in the receiver's queue
     bool has_it = false;      ///< it was sent on
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, federate, attributes, is_waiting, has_it);
+    }
   };
   MessageKind kind = MessageKind::interaction;
   FederateHandle sender;
@@ -32,6 +37,12 @@ struct StampedMessage {
   std::vector<Receiver> receivers;
   std::size_t waiting = 0;  ///< receivers in whose queue it is
   bool is_distributed = false, is_retractable = false, is_retracted = false;
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, kind, sender, number, stamp, object, class_number, only, attributes,
+                    body, receivers, waiting, is_distributed, is_retractable, is_retracted);
+  }
 };
 
 /// Empties a message for new content and keeps its memory.
@@ -79,18 +90,30 @@ class TimedMessages {
   const StampedMessage& operator[](std::uint32_t index) const;
   /// All places; free ones hold messages without receivers that cannot be retracted.
   const std::vector<StampedMessage>& all() const { return messages_; }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return keep_all(stream, messages_, free_, bytes_, senders_);
+  }
 
  private:
   /// A message that a federate has sent and may still retract, by its count.
   struct Sent {
     std::uint64_t number = 0;
     std::uint32_t message = 0;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, number, message);
+    }
   };
   struct Sender {
     std::uint64_t next_number = 0;
     std::vector<Sent> sent;
     std::size_t bytes = 0;  ///< of the messages in `sent`
     std::size_t compact_at = 64, compact_bytes_at = 1u << 20;
+    template <class Stream>
+    bool keep(Stream& stream) {
+      return keep_all(stream, next_number, sent, bytes, compact_at, compact_bytes_at);
+    }
   };
   std::uint32_t take_place();
   void release(std::uint32_t index);
