@@ -2,6 +2,7 @@
 #include "rti/ambassador.h"
 
 #include "rti/federate/ambassador_parts.h"
+#include "rti/save/kept_ambassador.h"
 
 namespace rink::rti {
 
@@ -9,7 +10,11 @@ static_assert(Ambassador::waiting_callbacks_max == CallbackGate::waiting_max);
 
 Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Timeouts& timeouts,
                        CallbackModel model)
-    : parts_(std::make_unique<AmbassadorParts>(fom, callbacks, timeouts, model)) {}
+    : parts_(std::make_unique<AmbassadorParts>(fom, callbacks, timeouts, model)) {
+  AmbassadorParts& parts = *parts_;
+  parts.saves.keep_by([&parts](std::vector<std::byte>& state) { write_state(parts, state); },
+                      [&parts](Bytes state) { return read_state(parts, state); });
+}
 Ambassador::~Ambassador() = default;
 
 void Ambassador::create_federation_execution(std::string_view federation) {
@@ -33,155 +38,177 @@ bool Ambassador::is_joined() const { return parts_->ground.phase.is_joined(); }
 FederateHandle Ambassador::federate() const { return parts_->ground.phase.federate(); }
 void Ambassador::register_synchronization_point(std::string_view label, Bytes tag,
                                                 std::span<const FederateHandle> members) {
-  parts_->synchronization.register_point(label, tag, members);
+  active().synchronization.register_point(label, tag, members);
 }
 void Ambassador::synchronization_point_achieved(std::string_view label, bool is_success) {
-  parts_->synchronization.achieve(label, is_success);
+  active().synchronization.achieve(label, is_success);
 }
-void Ambassador::watch_federates() { parts_->session.watch_federates(); }
+void Ambassador::watch_federates() { active().session.watch_federates(); }
+AmbassadorParts& Ambassador::active() {
+  parts_->saves.require_idle();
+  return *parts_;
+}
+void Ambassador::request_federation_save(std::string_view label) {
+  parts_->saves.request(label, {});
+}
+void Ambassador::request_federation_save(std::string_view label, LogicalTime time) {
+  parts_->saves.request(label, time);
+}
+void Ambassador::federate_save_begun() { parts_->saves.begun(); }
+void Ambassador::federate_save_complete() { parts_->saves.complete(true); }
+void Ambassador::federate_save_not_complete() { parts_->saves.complete(false); }
+void Ambassador::abort_federation_save() { parts_->saves.abort(); }
+void Ambassador::query_federation_save_status() { parts_->saves.query(); }
+void Ambassador::request_federation_restore(std::string_view label) {
+  parts_->saves.request_restore(label);
+}
+void Ambassador::federate_restore_complete() { parts_->saves.complete_restore(true); }
+void Ambassador::federate_restore_not_complete() { parts_->saves.complete_restore(false); }
+void Ambassador::abort_federation_restore() { parts_->saves.abort_restore(); }
+void Ambassador::query_federation_restore_status() { parts_->saves.query_restore(); }
 void Ambassador::publish_object_class_attributes(ObjectClassHandle object_class,
                                                  AttributeSet attributes) {
-  parts_->declarations.publish(object_class, attributes);
+  active().declarations.publish(object_class, attributes);
 }
 void Ambassador::unpublish_object_class(ObjectClassHandle object_class) {
-  parts_->declarations.publish(object_class, {});
+  active().declarations.publish(object_class, {});
 }
 void Ambassador::subscribe_object_class_attributes(ObjectClassHandle object_class,
                                                    AttributeSet attributes, RegionHandle region,
                                                    bool is_active) {
-  parts_->declarations.subscribe(object_class, attributes, region, is_active);
+  active().declarations.subscribe(object_class, attributes, region, is_active);
 }
 void Ambassador::unsubscribe_object_class(ObjectClassHandle object_class, RegionHandle region) {
-  parts_->declarations.subscribe(object_class, {}, region, true);
+  active().declarations.subscribe(object_class, {}, region, true);
 }
 void Ambassador::publish_interaction_class(InteractionClassHandle interaction_class) {
-  parts_->declarations.publish(interaction_class, true);
+  active().declarations.publish(interaction_class, true);
 }
 void Ambassador::unpublish_interaction_class(InteractionClassHandle interaction_class) {
-  parts_->declarations.publish(interaction_class, false);
+  active().declarations.publish(interaction_class, false);
 }
 void Ambassador::subscribe_interaction_class(InteractionClassHandle interaction_class,
                                              bool is_active) {
-  parts_->declarations.subscribe(interaction_class,
-                                 is_active ? Listening::active : Listening::passive);
+  active().declarations.subscribe(interaction_class,
+                                  is_active ? Listening::active : Listening::passive);
 }
 void Ambassador::unsubscribe_interaction_class(InteractionClassHandle interaction_class) {
-  parts_->declarations.subscribe(interaction_class, Listening::none);
+  active().declarations.subscribe(interaction_class, Listening::none);
 }
 void Ambassador::unconditional_attribute_ownership_divestiture(ObjectHandle object,
                                                                AttributeSet attributes) {
-  parts_->owners.divest(object, attributes);
+  active().owners.divest(object, attributes);
 }
 void Ambassador::negotiated_attribute_ownership_divestiture(ObjectHandle object,
                                                             AttributeSet attributes, Bytes tag) {
-  parts_->owners.offer(object, attributes, tag);
+  active().owners.offer(object, attributes, tag);
 }
 void Ambassador::confirm_divestiture(ObjectHandle object, AttributeSet attributes, Bytes tag) {
-  parts_->owners.confirm(object, attributes, tag);
+  active().owners.confirm(object, attributes, tag);
 }
 void Ambassador::cancel_negotiated_attribute_ownership_divestiture(ObjectHandle object,
                                                                    AttributeSet attributes) {
-  parts_->owners.withdraw_offer(object, attributes);
+  active().owners.withdraw_offer(object, attributes);
 }
 void Ambassador::attribute_ownership_release_denied(ObjectHandle object, AttributeSet attributes) {
-  parts_->owners.deny_release(object, attributes);
+  active().owners.deny_release(object, attributes);
 }
 void Ambassador::attribute_ownership_divestiture_if_wanted(ObjectHandle object,
                                                            AttributeSet attributes) {
-  parts_->owners.divest_if_wanted(object, attributes);
+  active().owners.divest_if_wanted(object, attributes);
 }
 void Ambassador::attribute_ownership_acquisition(ObjectHandle object, AttributeSet attributes,
                                                  Bytes tag) {
-  parts_->owners.acquire(object, attributes, tag);
+  active().owners.acquire(object, attributes, tag);
 }
 void Ambassador::attribute_ownership_acquisition_if_available(ObjectHandle object,
                                                               AttributeSet attributes) {
-  parts_->owners.acquire_if_available(object, attributes);
+  active().owners.acquire_if_available(object, attributes);
 }
 void Ambassador::cancel_attribute_ownership_acquisition(ObjectHandle object,
                                                         AttributeSet attributes) {
-  parts_->owners.cancel_acquisition(object, attributes);
+  active().owners.cancel_acquisition(object, attributes);
 }
 void Ambassador::query_attribute_ownership(ObjectHandle object, AttributeHandle attribute) {
-  parts_->owners.query(object, attribute);
+  active().owners.query(object, attribute);
 }
 bool Ambassador::is_attribute_owned_by_federate(ObjectHandle object, AttributeHandle attribute) {
-  return parts_->owners.is_owned(object, attribute);
+  return active().owners.is_owned(object, attribute);
 }
 void Ambassador::set_automatic_resign_directive(ResignAction action) {
-  parts_->owners.set_directive(action);
+  active().owners.set_directive(action);
 }
 void Ambassador::resign(ResignAction action) { parts_->resign(action); }
 ObjectHandle Ambassador::register_object_instance(ObjectClassHandle object_class,
                                                   std::string_view name) {
-  return parts_->objects.register_instance(object_class, name);
+  return active().objects.register_instance(object_class, name);
 }
 void Ambassador::delete_object_instance(ObjectHandle object) {
-  parts_->objects.delete_instance(object);
+  active().objects.delete_instance(object);
 }
 void Ambassador::local_delete_object_instance(ObjectHandle object) {
-  parts_->objects.forget_instance(object);
+  active().objects.forget_instance(object);
 }
 void Ambassador::reserve_object_instance_name(std::string_view name) {
-  parts_->names.reserve(name);
+  active().names.reserve(name);
 }
 void Ambassador::reserve_multiple_object_instance_names(std::span<const std::string_view> names) {
-  parts_->names.reserve_set(names);
+  active().names.reserve_set(names);
 }
 void Ambassador::release_object_instance_name(std::string_view name) {
-  parts_->names.release_set(std::span(&name, 1));
+  active().names.release_set(std::span(&name, 1));
 }
 void Ambassador::release_multiple_object_instance_names(std::span<const std::string_view> names) {
-  parts_->names.release_set(names);
+  active().names.release_set(names);
 }
 void Ambassador::request_attribute_value_update(ObjectClassHandle object_class,
                                                 AttributeSet attributes, Bytes tag) {
-  parts_->objects.request_update(object_class, attributes, tag);
+  active().objects.request_update(object_class, attributes, tag);
 }
 void Ambassador::request_attribute_value_update(ObjectHandle object, AttributeSet attributes,
                                                 Bytes tag) {
-  parts_->objects.request_update(object, attributes, tag);
+  active().objects.request_update(object, attributes, tag);
 }
 void Ambassador::request_attribute_transportation_type_change(ObjectHandle object,
                                                               AttributeSet attributes,
                                                               Transportation transportation) {
-  parts_->transportation.change(object, attributes, transportation);
+  active().transportation.change(object, attributes, transportation);
 }
 void Ambassador::query_attribute_transportation_type(ObjectHandle object,
                                                      AttributeHandle attribute) {
-  parts_->transportation.query(object, attribute);
+  active().transportation.query(object, attribute);
 }
 void Ambassador::request_interaction_transportation_type_change(
     InteractionClassHandle interaction_class, Transportation transportation) {
-  parts_->transportation.change(interaction_class, transportation);
+  active().transportation.change(interaction_class, transportation);
 }
 void Ambassador::query_interaction_transportation_type(FederateHandle federate,
                                                        InteractionClassHandle interaction_class) {
-  parts_->transportation.query(federate, interaction_class);
+  active().transportation.query(federate, interaction_class);
 }
 void Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes, Bytes values,
                                          const Stamp& stamp) {
-  parts_->updates.update(object, attributes, values, stamp);
+  active().updates.update(object, attributes, values, stamp);
 }
 void Ambassador::send_interaction(InteractionClassHandle interaction_class, Bytes parameters,
                                   const Stamp& stamp) {
-  parts_->updates.send(interaction_class, {}, parameters, stamp);
+  active().updates.send(interaction_class, {}, parameters, stamp);
 }
 void Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
                                            FederateHandle receiver, Bytes parameters,
                                            const Stamp& stamp) {
-  parts_->updates.send(interaction_class, receiver, parameters, stamp);
+  active().updates.send(interaction_class, receiver, parameters, stamp);
 }
-RegionHandle Ambassador::create_region() { return parts_->regions.create(); }
+RegionHandle Ambassador::create_region() { return active().regions.create(); }
 RegionHandle Ambassador::create_region(DimensionSet dimensions) {
-  return parts_->regions.create(dimensions);
+  return active().regions.create(dimensions);
 }
 void Ambassador::set_region(RegionHandle region, const im::Region& bounds) {
-  parts_->ground.regions.set_plane(region, bounds);
+  active().ground.regions.set_plane(region, bounds);
 }
 void Ambassador::set_range_bounds(RegionHandle region, DimensionHandle dimension,
                                   const Range& range) {
-  parts_->ground.regions.set_range(region, dimension, range);
+  active().ground.regions.set_range(region, dimension, range);
 }
 Range Ambassador::get_range_bounds(RegionHandle region, DimensionHandle dimension) const {
   return parts_->ground.regions.range(region, dimension);
@@ -190,59 +217,59 @@ DimensionSet Ambassador::get_dimension_handle_set(RegionHandle region) const {
   return parts_->ground.regions.dimensions(region);
 }
 void Ambassador::commit_region_modifications(RegionHandle region) {
-  parts_->regions.commit(std::span<const RegionHandle>(&region, 1));
+  active().regions.commit(std::span<const RegionHandle>(&region, 1));
 }
 void Ambassador::commit_region_modifications(std::span<const RegionHandle> regions) {
-  parts_->regions.commit(regions);
+  active().regions.commit(regions);
 }
 void Ambassador::commit_region_modifications(std::span<const RegionBounds> regions) {
-  parts_->regions.commit(regions);
+  active().regions.commit(regions);
 }
-void Ambassador::delete_region(RegionHandle region) { parts_->regions.remove(region); }
+void Ambassador::delete_region(RegionHandle region) { active().regions.remove(region); }
 void Ambassador::associate_regions_for_updates(ObjectHandle object, RegionHandle region) {
-  parts_->regions.associate(object, region);
+  active().regions.associate(object, region);
 }
 void Ambassador::associate_regions_for_updates(ObjectHandle object,
                                                std::span<const AttributeRegions> pairs) {
-  parts_->regions.associate(object, pairs, true);
+  active().regions.associate(object, pairs, true);
 }
 void Ambassador::unassociate_regions_for_updates(ObjectHandle object,
                                                  std::span<const AttributeRegions> pairs) {
-  parts_->regions.associate(object, pairs, false);
+  active().regions.associate(object, pairs, false);
 }
 ObjectHandle Ambassador::register_object_instance_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs,
     std::string_view name) {
-  return parts_->regions.register_instance(object_class, pairs, name);
+  return active().regions.register_instance(object_class, pairs, name);
 }
 void Ambassador::subscribe_object_class_attributes_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs, bool is_active) {
-  parts_->regions.subscribe(object_class, pairs,
-                            is_active ? RegionAction::add : RegionAction::add_passively);
+  active().regions.subscribe(object_class, pairs,
+                             is_active ? RegionAction::add : RegionAction::add_passively);
 }
 void Ambassador::unsubscribe_object_class_attributes_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
-  parts_->regions.subscribe(object_class, pairs, RegionAction::remove);
+  active().regions.subscribe(object_class, pairs, RegionAction::remove);
 }
 void Ambassador::subscribe_interaction_class_with_regions(InteractionClassHandle interaction_class,
                                                           std::span<const RegionHandle> regions,
                                                           bool is_active) {
-  parts_->regions.subscribe(interaction_class, regions,
-                            is_active ? Listening::active : Listening::passive);
+  active().regions.subscribe(interaction_class, regions,
+                             is_active ? Listening::active : Listening::passive);
 }
 void Ambassador::unsubscribe_interaction_class_with_regions(
     InteractionClassHandle interaction_class, std::span<const RegionHandle> regions) {
-  parts_->regions.subscribe(interaction_class, regions, Listening::none);
+  active().regions.subscribe(interaction_class, regions, Listening::none);
 }
 void Ambassador::send_interaction_with_regions(InteractionClassHandle interaction_class,
                                                Bytes parameters,
                                                std::span<const RegionHandle> regions,
                                                const Stamp& stamp) {
-  parts_->regions.send(interaction_class, parameters, regions, stamp);
+  active().regions.send(interaction_class, parameters, regions, stamp);
 }
 void Ambassador::request_attribute_value_update_with_regions(
     ObjectClassHandle object_class, std::span<const AttributeRegions> pairs) {
-  parts_->regions.request_update(object_class, pairs);
+  active().regions.request_update(object_class, pairs);
 }
 FederateHandle Ambassador::get_federate_handle(std::string_view name) const {
   return parts_->session.handle_of(name);
@@ -266,62 +293,62 @@ bool Ambassador::evoke_multiple_callbacks(std::size_t count_max) {
 void Ambassador::disable_callbacks() { parts_->disable_callbacks(); }
 void Ambassador::enable_callbacks() { parts_->enable_callbacks(); }
 void Ambassador::enable_time_regulation(double lookahead) {
-  parts_->time.enable_regulation(lookahead);
+  active().time.enable_regulation(lookahead);
 }
-void Ambassador::disable_time_regulation() { parts_->time.disable_regulation(); }
-void Ambassador::enable_time_constrained() { parts_->time.enable_constrained(); }
-void Ambassador::disable_time_constrained() { parts_->time.disable_constrained(); }
+void Ambassador::disable_time_regulation() { active().time.disable_regulation(); }
+void Ambassador::enable_time_constrained() { active().time.enable_constrained(); }
+void Ambassador::disable_time_constrained() { active().time.disable_constrained(); }
 void Ambassador::time_advance_request(LogicalTime time) {
-  parts_->time.request_advance(AdvanceKind::time_advance, time);
+  active().time.request_advance(AdvanceKind::time_advance, time);
 }
 void Ambassador::time_advance_request_available(LogicalTime time) {
-  parts_->time.request_advance(AdvanceKind::time_advance_available, time);
+  active().time.request_advance(AdvanceKind::time_advance_available, time);
 }
 void Ambassador::next_message_request(LogicalTime time) {
-  parts_->time.request_advance(AdvanceKind::next_message, time);
+  active().time.request_advance(AdvanceKind::next_message, time);
 }
 void Ambassador::next_message_request_available(LogicalTime time) {
-  parts_->time.request_advance(AdvanceKind::next_message_available, time);
+  active().time.request_advance(AdvanceKind::next_message_available, time);
 }
 void Ambassador::flush_queue_request(LogicalTime time) {
-  parts_->time.request_advance(AdvanceKind::flush_queue, time);
+  active().time.request_advance(AdvanceKind::flush_queue, time);
 }
-void Ambassador::modify_lookahead(double lookahead) { parts_->time.modify_lookahead(lookahead); }
-void Ambassador::enable_asynchronous_delivery() { parts_->time.set_asynchronous(true); }
-void Ambassador::disable_asynchronous_delivery() { parts_->time.set_asynchronous(false); }
+void Ambassador::modify_lookahead(double lookahead) { active().time.modify_lookahead(lookahead); }
+void Ambassador::enable_asynchronous_delivery() { active().time.set_asynchronous(true); }
+void Ambassador::disable_asynchronous_delivery() { active().time.set_asynchronous(false); }
 LogicalTime Ambassador::query_logical_time() const {
   return LogicalTime(parts_->time.clock().time());
 }
 double Ambassador::query_lookahead() const { return parts_->time.clock().lookahead(); }
-void Ambassador::query_time_bounds() { parts_->time.query_bounds(); }
+void Ambassador::query_time_bounds() { active().time.query_bounds(); }
 const FederateClock& Ambassador::clock() const { return parts_->time.clock(); }
 RetractionHandle Ambassador::update_attribute_values(ObjectHandle object, AttributeSet attributes,
                                                      Bytes values, LogicalTime time,
                                                      std::uint64_t tag) {
-  return parts_->time.update(object, attributes, values, {time, tag});
+  return active().time.update(object, attributes, values, {time, tag});
 }
 RetractionHandle Ambassador::send_interaction(InteractionClassHandle interaction_class,
                                               Bytes parameters, LogicalTime time,
                                               std::uint64_t tag) {
-  return parts_->time.send(interaction_class, {}, parameters, {time, tag});
+  return active().time.send(interaction_class, {}, parameters, {time, tag});
 }
 RetractionHandle Ambassador::send_directed_interaction(InteractionClassHandle interaction_class,
                                                        FederateHandle receiver, Bytes parameters,
                                                        LogicalTime time, std::uint64_t tag) {
-  return parts_->time.send(interaction_class, receiver, parameters, {time, tag});
+  return active().time.send(interaction_class, receiver, parameters, {time, tag});
 }
 RetractionHandle Ambassador::delete_object_instance(ObjectHandle object, LogicalTime time,
                                                     std::uint64_t tag) {
-  return parts_->time.delete_instance(object, {time, tag});
+  return active().time.delete_instance(object, {time, tag});
 }
-void Ambassador::retract(const RetractionHandle& handle) { parts_->time.retract(handle); }
+void Ambassador::retract(const RetractionHandle& handle) { active().time.retract(handle); }
 void Ambassador::change_attribute_order_type(ObjectHandle object, AttributeSet attributes,
                                              Order order) {
-  parts_->time.change_order(object, attributes, order);
+  active().time.change_order(object, attributes, order);
 }
 void Ambassador::change_interaction_order_type(InteractionClassHandle interaction_class,
                                                Order order) {
-  parts_->time.change_order(interaction_class, order);
+  active().time.change_order(interaction_class, order);
 }
 bool Ambassador::receive(Bytes bytes) { return parts_->receive(bytes); }
 void Ambassador::receive_datagram(Bytes datagram) { parts_->receive_datagram(datagram); }

@@ -68,6 +68,27 @@ class Ambassador {
   void synchronization_point_achieved(std::string_view label, bool is_success = true);
   /// Asks for notices of all federates that are joined, that join and that leave.
   void watch_federates();
+  /// Saves the federation under this label (docs/rti.md, "Save and restore"), now or once every
+  /// time-constrained federate has been granted `time`: `initiate_federate_save` goes to all, each
+  /// says that it begins and how it ended, and `federation_saved` or `federation_not_saved`
+  /// follows. A later request replaces one that has not begun. All services but these, `resign` and
+  /// look-ups are refused meanwhile: SaveInProgress, RestoreInProgress. At a time:
+  /// FederateUnableToUseTime unless the federate regulates, LogicalTimeAlreadyPassed.
+  void request_federation_save(std::string_view label);
+  void request_federation_save(std::string_view label, LogicalTime time);
+  /// SaveNotInitiated, FederateHasNotBegunSave, SaveNotInProgress.
+  void federate_save_begun();
+  void federate_save_complete();
+  void federate_save_not_complete();
+  void abort_federation_save();
+  void query_federation_save_status();
+  /// The federation must have federates of the types and as many as were saved: each takes the
+  /// place of one, that of its name if there is one. RestoreNotRequested, RestoreNotInProgress.
+  void request_federation_restore(std::string_view label);
+  void federate_restore_complete();
+  void federate_restore_not_complete();
+  void abort_federation_restore();
+  void query_federation_restore_status();
 
   /// Declaration management. A later call for the same class (and region) replaces the earlier one.
   void publish_object_class_attributes(ObjectClassHandle object_class, AttributeSet attributes);
@@ -342,6 +363,9 @@ class Ambassador {
   ~Ambassador();
 
  private:
+  /// The parts, for services that are refused while the federation is saved or restored.
+  AmbassadorParts& active();
+
   std::unique_ptr<AmbassadorParts> parts_;
 };
 

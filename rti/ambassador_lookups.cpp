@@ -62,28 +62,28 @@ DimensionSet Ambassador::get_available_dimensions_for_interaction_class(
   return parts_->lookup.get_available_dimensions_for_interaction_class(interaction_class);
 }
 void Ambassador::enable_object_class_relevance_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::object_class_relevance, true);
+  active().declarations.switch_advisory(Advisory::object_class_relevance, true);
 }
 void Ambassador::disable_object_class_relevance_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::object_class_relevance, false);
+  active().declarations.switch_advisory(Advisory::object_class_relevance, false);
 }
 void Ambassador::enable_attribute_relevance_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::attribute_relevance, true);
+  active().declarations.switch_advisory(Advisory::attribute_relevance, true);
 }
 void Ambassador::disable_attribute_relevance_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::attribute_relevance, false);
+  active().declarations.switch_advisory(Advisory::attribute_relevance, false);
 }
 void Ambassador::enable_attribute_scope_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::attribute_scope, true);
+  active().declarations.switch_advisory(Advisory::attribute_scope, true);
 }
 void Ambassador::disable_attribute_scope_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::attribute_scope, false);
+  active().declarations.switch_advisory(Advisory::attribute_scope, false);
 }
 void Ambassador::enable_interaction_relevance_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::interaction_relevance, true);
+  active().declarations.switch_advisory(Advisory::interaction_relevance, true);
 }
 void Ambassador::disable_interaction_relevance_advisory_switch() {
-  parts_->declarations.switch_advisory(Advisory::interaction_relevance, false);
+  active().declarations.switch_advisory(Advisory::interaction_relevance, false);
 }
 
 }  // namespace rink::rti

@@ -10,6 +10,7 @@
 #include "rti/hla_error.h"
 #include "rti/management/federation_report.h"
 #include "rti/membership.h"
+#include "rti/save/save_status.h"
 #include "rti/types.h"
 #include "rti/wire/bytes.h"
 
@@ -42,6 +43,32 @@ class FederateAmbassador {
   /// `failed` are the federates of the set that reported that they could not achieve it.
   virtual void federation_synchronized(std::string_view /*label*/,
                                        std::span<const FederateHandle> /*failed*/) {}
+
+  /// Saving: between the first of these and the last but one the federate saves itself, and calls
+  /// no service but those by which it says so.
+  virtual void initiate_federate_save(std::string_view /*label*/) {}
+  virtual void initiate_federate_save_with_time(std::string_view /*label*/, LogicalTime) {}
+  virtual void federation_saved() {}
+  virtual void federation_not_saved(SaveFailure, std::string_view /*why*/) {}
+  virtual void federation_save_status_response(std::span<const FederateSaveStatus>) {}
+  /// Restoring: the federate restores itself as the one of this name and handle. After
+  /// `federation_restored` everything is as it was saved, handles too, and it is sent the present
+  /// state of all in its scope.
+  virtual void request_federation_restore_succeeded(std::string_view /*label*/) {}
+  virtual void request_federation_restore_failed(std::string_view /*label*/,
+                                                 std::string_view /*why*/) {}
+  virtual void federation_restore_begun() {}
+  virtual void initiate_federate_restore(std::string_view /*label*/, std::string_view /*name*/,
+                                         FederateHandle) {}
+  virtual void federation_restored() {}
+  /// Everything is as before the restore began.
+  virtual void federation_not_restored(RestoreFailure, std::string_view /*why*/) {}
+  virtual void federation_restore_status_response(std::span<const FederateRestoreStatus>) {}
+  /// For a layer between the ambassador and the federate: what it knows itself is saved with what
+  /// the ambassador knows, and comes back right before `federation_restored`. Neither ever waits.
+  /// False if the state is damaged.
+  virtual void write_state(std::vector<std::byte>&) {}
+  virtual bool read_state(Bytes) { return true; }
 
   /// Follows `Ambassador::watch_federates`: first once for each federate that is joined (the
   /// watcher too), then whenever one joins or leaves.

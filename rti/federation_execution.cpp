@@ -7,18 +7,12 @@
 #include <utility>
 
 #include "rti/federation/federation_parts.h"
+#include "rti/save/kept_federation.h"
 #include "rti/wire/membership_messages.h"
 
 namespace rink::rti {
 
 namespace {
-
-void require_valid(UpdateRate rate) {
-  if (!rate.is_valid())
-    throw std::invalid_argument("update rate: " + std::to_string(rate.turns) + " turns in " +
-                                std::to_string(rate.matches) +
-                                " matches; expected at least 1 turn in at least as many matches");
-}
 
 std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
   if (const auto complaint = im::complaint_about(settings.filter, settings.filter_settings))
@@ -33,8 +27,23 @@ std::unique_ptr<im::Filter> filter_called(const FederationSettings& settings) {
 
 FederationExecution::FederationExecution(const Fom& fom, const FederationSettings& settings,
                                          const FederationServices& services)
-    : parts_(std::make_unique<FederationParts>(fom, settings, services, filter_called(settings))) {}
+    : parts_(make(fom, settings, services)) {}
 FederationExecution::~FederationExecution() = default;
+
+/// The parts that a save brings back are made like the first, and can be saved again.
+std::unique_ptr<FederationParts> FederationExecution::make(const Fom& fom,
+                                                           const FederationSettings& settings,
+                                                           const FederationServices& services) {
+  auto parts = std::make_unique<FederationParts>(fom, settings, services, filter_called(settings));
+  FederationParts& made = *parts;
+  parts->saves.keep_by([&made](std::vector<std::byte>& state) { return write_state(made, state); },
+                       [this, &made, services](const SavedFederation& saved) {
+                         prepared_ = make(made.ground.fom, made.ground.settings, services);
+                         prepared_->ground.now = made.ground.now;
+                         return read_state(*prepared_, saved.state);
+                       });
+  return parts;
+}
 
 void FederationExecution::connect(ConnectionId connection) {
   parts_->connections.connect(connection);
@@ -90,7 +99,14 @@ void FederationExecution::set_federate_facts(FederateHandle federate, const im::
 
 void FederationExecution::set_time(double now) { parts_->ground.distribution->set_time(now); }
 
-void FederationExecution::flush(Outlet& outlet) { parts_->flush(outlet); }
+/// A restored federation begins between two ticks, so that nobody is in the midst of the former.
+void FederationExecution::flush(Outlet& outlet) {
+  if (parts_->saves.is_restored()) {
+    prepared_->take_over(*parts_);
+    parts_ = std::move(prepared_);
+  }
+  parts_->flush(outlet);
+}
 FederationReport FederationExecution::report(const Outlet* outlet) const {
   return parts_->connections.report(outlet);
 }

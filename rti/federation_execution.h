@@ -120,7 +120,11 @@ class FederationExecution final : public CentralComponent {
   const DataDistribution& distribution() const;
 
  private:
-  std::unique_ptr<FederationParts> parts_;
+  std::unique_ptr<FederationParts> make(const Fom& fom, const FederationSettings& settings,
+                                        const FederationServices& services);
+
+  std::unique_ptr<FederationParts> parts_,
+      prepared_;  ///< of the save that is being restored
 };
 
 }  // namespace rink::rti

@@ -9,12 +9,14 @@
 #include "rti/distribution/data_distribution.h"
 #include "rti/groups/group_communication.h"
 #include "rti/ownership/ownership.h"
+#include "rti/save/save_store.h"
 #include "rti/time/time_management.h"
 
 namespace rink::rti {
 
 /// Functions that make each part; an empty one stands for the RTI's own part. Each is called once,
-/// by the execution's constructor unless stated otherwise, and its arguments outlive what it makes.
+/// by the execution's constructor unless stated otherwise, and again for a federation that is
+/// restored; its arguments outlive what it makes.
 struct FederationServices {
   /// Decides who receives what. `filter` is the one that the settings name.
   std::function<std::unique_ptr<DataDistribution>(const Fom& fom, const ObjectTable& objects,
@@ -32,6 +34,9 @@ struct FederationServices {
   /// Decides when each federate may advance. Made when the first federate asks for it, so a
   /// federation without time management has none.
   std::function<std::unique_ptr<TimeManagement>()> time_management;
+
+  /// Where federations are saved (rti/save/save_directory.h); null: they cannot be.
+  std::shared_ptr<SaveStore> save_store;
 };
 
 }  // namespace rink::rti

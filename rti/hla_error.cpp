@@ -141,6 +141,22 @@ const char* to_string(HlaError error) {
       return "InteractionRelevanceAdvisorySwitchIsOff";
     case HlaError::name_set_was_empty:
       return "NameSetWasEmpty";
+    case HlaError::save_in_progress:
+      return "SaveInProgress";
+    case HlaError::save_not_initiated:
+      return "SaveNotInitiated";
+    case HlaError::save_not_in_progress:
+      return "SaveNotInProgress";
+    case HlaError::federate_has_not_begun_save:
+      return "FederateHasNotBegunSave";
+    case HlaError::federate_unable_to_use_time:
+      return "FederateUnableToUseTime";
+    case HlaError::restore_in_progress:
+      return "RestoreInProgress";
+    case HlaError::restore_not_requested:
+      return "RestoreNotRequested";
+    case HlaError::restore_not_in_progress:
+      return "RestoreNotInProgress";
   }
   return "unknown error";
 }

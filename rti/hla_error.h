@@ -80,6 +80,14 @@ enum class HlaError : std::uint8_t {
   interaction_relevance_advisory_switch_is_on,
   interaction_relevance_advisory_switch_is_off,
   name_set_was_empty,
+  save_in_progress,
+  save_not_initiated,
+  save_not_in_progress,
+  federate_has_not_begun_save,
+  federate_unable_to_use_time,
+  restore_in_progress,
+  restore_not_requested,
+  restore_not_in_progress,
 };
 /// The standard's own spelling, "AttributeNotOwned"; "" for none.
 const char* to_string(HlaError error);

@@ -23,6 +23,10 @@ const char* to_string(Refusal refusal) {
     case Refusal::not_listed:
       return "the federation's members are listed by name in its federation file, and this "
              "federate is none of them";
+    case Refusal::save_in_progress:
+      return "the federation is being saved: join once that is done";
+    case Refusal::restore_in_progress:
+      return "the federation is being restored: join once that is done";
   }
   return "unknown refusal";
 }
@@ -40,6 +44,10 @@ HlaError error_of(Refusal refusal) {
     case Refusal::not_listed:
     case Refusal::not_admitted:
       return HlaError::unauthorized;
+    case Refusal::save_in_progress:
+      return HlaError::save_in_progress;
+    case Refusal::restore_in_progress:
+      return HlaError::restore_in_progress;
     case Refusal::wrong_version:
     case Refusal::federation_full:
       break;

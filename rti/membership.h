@@ -9,14 +9,16 @@ namespace rink::rti {
 
 /// Why a join failed; the numbers are those on the wire.
 enum class Refusal : std::uint8_t {
-  wrong_version = 1,  ///< the two ends speak different protocol versions
-  wrong_fom,          ///< the two ends loaded object models that differ
-  wrong_federation,   ///< no federation execution of that name here
-  name_taken,         ///< a federate of that name has joined
-  federation_full,    ///< the federation execution has its greatest number of federates
-  bad_name,           ///< the federate's name is empty
-  not_admitted,       ///< the RTI asks for a shared key, and got no proof of it
-  not_listed,         ///< the federation's members are listed, and the federate is none of them
+  wrong_version = 1,    ///< the two ends speak different protocol versions
+  wrong_fom,            ///< the two ends loaded object models that differ
+  wrong_federation,     ///< no federation execution of that name here
+  name_taken,           ///< a federate of that name has joined
+  federation_full,      ///< the federation execution has its greatest number of federates
+  bad_name,             ///< the federate's name is empty
+  not_admitted,         ///< the RTI asks for a shared key, and got no proof of it
+  not_listed,           ///< the federation's members are listed, and the federate is none of them
+  save_in_progress,     ///< the federation is being saved
+  restore_in_progress,  ///< the federation is being restored
 };
 /// A sentence for a user about what is wrong, or "unknown refusal".
 const char* to_string(Refusal refusal);

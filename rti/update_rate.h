@@ -4,6 +4,8 @@
 
 #include <cassert>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 namespace rink::rti {
 
@@ -19,5 +21,13 @@ struct UpdateRate {
   bool is_valid() const { return turns >= 1 && turns <= matches; }
   friend bool operator==(const UpdateRate&, const UpdateRate&) = default;
 };
+
+/// Throws std::invalid_argument unless `rate` is valid.
+inline void require_valid(UpdateRate rate) {
+  if (!rate.is_valid())
+    throw std::invalid_argument("update rate: " + std::to_string(rate.turns) + " turns in " +
+                                std::to_string(rate.matches) +
+                                " matches; expected at least 1 turn in at least as many matches");
+}
 
 }  // namespace rink::rti

@@ -70,6 +70,39 @@ class CallbackQueue final : public FederateAmbassador {
                                std::span<const FederateHandle> failed) override {
     put<&FederateAmbassador::federation_synchronized>(label, failed);
   }
+  void initiate_federate_save(std::string_view label) override {
+    put<&FederateAmbassador::initiate_federate_save>(label);
+  }
+  void initiate_federate_save_with_time(std::string_view label, LogicalTime time) override {
+    put<&FederateAmbassador::initiate_federate_save_with_time>(label, time);
+  }
+  void federation_saved() override { put<&FederateAmbassador::federation_saved>(); }
+  void federation_not_saved(SaveFailure failure, std::string_view why) override {
+    put<&FederateAmbassador::federation_not_saved>(failure, why);
+  }
+  void federation_save_status_response(std::span<const FederateSaveStatus> all) override {
+    put<&FederateAmbassador::federation_save_status_response>(all);
+  }
+  void request_federation_restore_succeeded(std::string_view label) override {
+    put<&FederateAmbassador::request_federation_restore_succeeded>(label);
+  }
+  void request_federation_restore_failed(std::string_view label, std::string_view why) override {
+    put<&FederateAmbassador::request_federation_restore_failed>(label, why);
+  }
+  void federation_restore_begun() override { put<&FederateAmbassador::federation_restore_begun>(); }
+  void initiate_federate_restore(std::string_view label, std::string_view name,
+                                 FederateHandle federate) override {
+    put<&FederateAmbassador::initiate_federate_restore>(label, name, federate);
+  }
+  void federation_restored() override { put<&FederateAmbassador::federation_restored>(); }
+  void federation_not_restored(RestoreFailure failure, std::string_view why) override {
+    put<&FederateAmbassador::federation_not_restored>(failure, why);
+  }
+  void federation_restore_status_response(std::span<const FederateRestoreStatus> all) override {
+    put<&FederateAmbassador::federation_restore_status_response>(all);
+  }
+  void write_state(std::vector<std::byte>& state) override { federate_.write_state(state); }
+  bool read_state(Bytes state) override { return federate_.read_state(state); }
   void federate_joined(FederateHandle federate, std::string_view name,
                        std::string_view type) override {
     put<&FederateAmbassador::federate_joined>(federate, name, type);

@@ -48,6 +48,7 @@ struct AmbassadorGround {
   OwnershipBook ownership;
   ResidualReader residuals;
   PostponedMessages postponed;
+  FrameReader incoming;
 };
 
 }  // namespace rink::rti

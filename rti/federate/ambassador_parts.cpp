@@ -28,6 +28,7 @@ AmbassadorParts::AmbassadorParts(const Fom& fom, FederateAmbassador& callbacks,
       synchronization(ground.basis()),
       questions(ground.basis()),
       session(ground.basis(), ground.phase),
+      saves(ground.basis(), {session, sparing, sender, time}),
       update_receiver(ground.basis(), ground.objects, ground.arrivals, ground.residuals),
       keyframes(ground.basis(), ground.objects, ground.arrivals),
       datagrams(ground.basis(), {ground.watch, ground.arrivals, update_receiver, sender}),
@@ -57,7 +58,7 @@ bool AmbassadorParts::receive(Bytes bytes) {
 
 bool AmbassadorParts::handle_bytes(Bytes bytes) {
   const bool is_understood =
-      incoming_.receive(
+      ground.incoming.receive(
           bytes, [] { return frame_max_to_federate; },
           [this](Bytes frame) { return handle_frame(frame); }) == Framing::sound;
   if (!is_understood) lose("the RTI sent what this version does not understand");
@@ -166,6 +167,7 @@ void AmbassadorParts::lose(std::string_view why) {
 void AmbassadorParts::receive_datagram(Bytes datagram) {
   if (!ground.phase.is_joined()) return;
   ground.watch.received();
+  if (!saves.takes_datagrams()) return;
   datagrams.receive(datagram, ground.gate.is_open());
 }
 
@@ -226,7 +228,7 @@ std::size_t AmbassadorParts::memory_bytes() const {
   const std::size_t sending = ground.frames.memory_bytes() + sender.memory_bytes() +
                               sparing.memory_bytes() + updates.memory_bytes() +
                               regions.memory_bytes() + time.memory_bytes();
-  const std::size_t receiving = ground.gate.memory_bytes() + incoming_.memory_bytes() +
+  const std::size_t receiving = ground.gate.memory_bytes() + ground.incoming.memory_bytes() +
                                 ground.postponed.memory_bytes() + entries_.memory_bytes() +
                                 update_receiver.memory_bytes() + keyframes.memory_bytes() +
                                 datagrams.memory_bytes() + ground.residuals.memory_bytes();

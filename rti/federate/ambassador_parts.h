@@ -12,6 +12,7 @@
 #include "rti/federate/delivery/update_receiver.h"
 #include "rti/federate/services/federate_ownership.h"
 #include "rti/federate/services/federate_regions.h"
+#include "rti/federate/services/federate_saves.h"
 #include "rti/federate/services/federate_synchronization.h"
 #include "rti/federate/services/federate_time.h"
 #include "rti/federate/services/federate_transportation.h"
@@ -65,6 +66,7 @@ class AmbassadorParts final {
   FederateSynchronization synchronization;
   HostQuestions questions;
   JoinSession session;
+  FederateSaves saves;
   UpdateReceiver update_receiver;
   KeyframeReader keyframes;
   DatagramReceiver datagrams;
@@ -86,7 +88,6 @@ class AmbassadorParts final {
   }
 
   EntryReader entries_;
-  FrameReader incoming_;
 };
 
 }  // namespace rink::rti

@@ -76,6 +76,15 @@ class FederateMessageTable {
     at(Kind::federation_synchronized) = [](Parts& parts, Reader& reader, ReadContext&) {
       return parts.synchronization.handle_synchronized(reader);
     };
+    at(Kind::save_notice) = [](Parts& parts, Reader& reader, ReadContext&) {
+      return parts.saves.handle_notice(reader);
+    };
+    at(Kind::save_status) = [](Parts& parts, Reader& reader, ReadContext&) {
+      return parts.saves.handle_status(reader);
+    };
+    at(Kind::restored) = [](Parts& parts, Reader& reader, ReadContext&) {
+      return parts.saves.handle_restored(reader);
+    };
   }
   constexpr void add_host() {
     at(Kind::federation_execution_created, When::ever) = [](Parts& parts, Reader& reader,

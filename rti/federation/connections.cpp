@@ -64,6 +64,16 @@ void Connections::expel(ConnectionId id, Violation violation, ResignReason reaso
       {id, std::string(why), was_joined ? framed(ExpelledMessage{why}) : std::vector<std::byte>()});
 }
 
+void Connections::take_over(Connections& former, const std::vector<std::uint32_t>& slots) {
+  advanced_s_ = former.advanced_s_;
+  connections_ = std::move(former.connections_);
+  report_queries_ = std::move(former.report_queries_);
+  pending_closes_ = std::move(former.pending_closes_);
+  answers_ = std::move(former.answers_);
+  for (FederationConnection& each : connections_)
+    if (each.phase == Phase::joined) each.federate = slots[each.federate];
+}
+
 Status Connections::resign(ConnectionId id) {
   assert(is_joined(id));
   handler_.remove(connections_[id].federate, ResignReason::resigned);

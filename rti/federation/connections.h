@@ -45,6 +45,9 @@ class Connections {
   void advance_clock(bool is_behind);
   void expel(ConnectionId id, Violation violation, ResignReason reason, std::string_view why);
   Status resign(ConnectionId id);
+  /// Takes all of `former`, whose federates have the slots that `slots` gives for their present
+  /// ones.
+  void take_over(Connections& former, const std::vector<std::uint32_t>& slots);
   /// The next flush answers.
   Status query_report(ConnectionId id);
   FederationReport report(const Outlet* outlet) const;
@@ -75,7 +78,7 @@ class Connections {
   FederationBasis basis_;
   std::optional<double> advanced_s_;  ///< when `advance_clock` was called last
   const Membership& membership_;
-  const FederationCensus& census_;
+  const FederationCensus census_;
   FrameHandler& handler_;
   std::vector<FederationConnection> connections_;  ///< by id
   std::vector<ConnectionId> report_queries_;       ///< that wait for the next flush

@@ -1,6 +1,8 @@
 // References that every service of a federation execution needs.
 #pragma once
 
+#include <cstdint>
+
 #include "rti/federation/federate_table.h"
 #include "rti/federation_counters.h"
 #include "rti/federation_settings.h"
@@ -8,6 +10,9 @@
 #include "rti/objects/object_table.h"
 
 namespace rink::rti {
+
+/// While the federation is saved or restored, nobody joins and nothing but that is sent.
+enum class SavePhase : std::uint8_t { idle, saving, restoring };
 
 /// Each service keeps a copy; all that it refers to outlives the services.
 struct FederationBasis {
@@ -17,6 +22,7 @@ struct FederationBasis {
   ObjectTable& objects;
   FederationCounters& counters;
   const double& now;  ///< as the clock was last advanced [s]
+  const SavePhase& save_phase;
 };
 
 }  // namespace rink::rti

@@ -20,12 +20,14 @@ struct FederationGround {
                    const FederationServices& services, std::unique_ptr<im::Filter> filter);
   FederationGround(const FederationGround&) = delete;
   FederationGround& operator=(const FederationGround&) = delete;
-  FederationBasis basis() { return {fom, settings, federates, objects, counters, now}; }
+  FederationBasis basis() { return {fom, settings, federates, objects, counters, now, save_phase}; }
 
   const Fom& fom;
   const FederationSettings settings;
   FederationCounters counters;
   double now = 0.0;  ///< as the clock was last advanced [s]
+  SavePhase save_phase = SavePhase::idle;
+  bool was_restored = false;
   FederateTable federates;
   ObjectTable objects;
   Ownership ownership;

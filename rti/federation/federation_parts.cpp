@@ -44,9 +44,11 @@ FederationParts::FederationParts(const Fom& fom, const FederationSettings& setti
                               {*ground.distribution, objects.publications, synchronization,
                                interactions, objects.requests, management_objects},
                               ManagementHandles(fom)),
-      census(ground.basis(), *ground.distribution, ground.ownership, time),
       membership(ground.basis()),
-      connections(ground.basis(), membership, census, *this) {}
+      saves(ground.basis(), {ground.save_phase, time, services.save_store.get()}),
+      connections(ground.basis(), membership,
+                  FederationCensus(ground.basis(), *ground.distribution, ground.ownership, time),
+                  *this) {}
 
 Expulsion FederationParts::expulsion() {
   return
@@ -61,7 +63,32 @@ void FederationParts::advance_clock(double now, bool is_behind) {
   connections.advance_clock(is_behind);
 }
 
+/// What belongs to the connection and not to the federate goes on as it was.
+void FederationParts::take_over(FederationParts& former) {
+  ground.was_restored = true;
+  ground.now = former.ground.now;
+  ground.counters = former.ground.counters;
+  const std::vector<std::uint32_t>& slots = former.saves.mapping();
+  for (std::uint32_t slot = 0; slot < slots.size(); ++slot) {
+    if (slots[slot] == no_federate) continue;
+    JoinedFederate& from = former.ground.federates[slot];
+    JoinedFederate& to = ground.federates[slots[slot]];
+    to.connection = from.connection;
+    to.has_notice = from.has_notice;
+    to.last_sent = from.last_sent;
+    to.counts = from.counts;
+    to.frames = from.frames;
+    to.stamp_steps = from.stamp_steps;
+    to.entry_values = std::move(from.entry_values);
+    to.entry_header = from.entry_header;
+    to.has_stream_only = true;
+  }
+  connections.take_over(former.connections, slots);
+  saves.announce_restored(former.saves.saved());
+}
+
 void FederationParts::match() {
+  if (ground.save_phase != SavePhase::idle) return;  // nobody is told before the end
   rates.begin_match();
   ground.distribution->match();
   ground.counters.scope_entries = ground.distribution->counters().entries;
@@ -72,11 +99,17 @@ void FederationParts::match() {
 /// settled before announcements; those of objects that a message in time-stamp order needs now are
 /// sent by this one.
 void FederationParts::flush(Outlet& outlet) {
+  if (saves.takes_flush()) {
+    connections.send_answers(outlet);
+    saves.flush(outlet);
+    return connections.close_pending(outlet);
+  }
   time.settle();
   declarations.advise_object_relevance();
   management_objects.notify();
   connections.send_answers(outlet);
   objects.requests.settle();
+  saves.begin_due();
   sender.flush(outlet);
   objects.requests.flushed();
   interactions.flushed();
@@ -133,6 +166,7 @@ void FederationParts::remove(std::uint32_t slot, ResignReason reason) {
   objects.names.left(slot);
   synchronization.left(slot);
   membership.left(slot, reason);
+  saves.left(slot);
   time.left(slot);
   objects.left(slot);
   declarations.left(slot);

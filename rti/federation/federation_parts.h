@@ -25,6 +25,7 @@
 #include "rti/federation/services/region_service.h"
 #include "rti/federation/services/synchronization.h"
 #include "rti/federation/time/time_service.h"
+#include "rti/save/save_service.h"
 
 namespace rink::rti {
 
@@ -34,7 +35,9 @@ class FederationParts final : private FrameHandler {
  public:
   FederationParts(const Fom& fom, const FederationSettings& settings,
                   const FederationServices& services, std::unique_ptr<im::Filter> filter);
-
+  /// Takes the connections of a federation whose federates have restored themselves as this one's.
+  /// It is fit for nothing but its destruction then.
+  void take_over(FederationParts& former);
   void advance_clock(double now, bool is_behind);
   void match();
   void flush(Outlet& outlet);
@@ -65,8 +68,8 @@ class FederationParts final : private FrameHandler {
   TimeService time;
   ManagementObjects management_objects;
   ManagementInteractions management_interactions;
-  FederationCensus census;
   Membership membership;
+  SaveService saves;
   Connections connections;
 
  private:
@@ -76,8 +79,9 @@ class FederationParts final : private FrameHandler {
   void begin_frame(std::uint32_t slot) override;
   Status handle_message(std::uint32_t slot, Reader& reader) override;  ///< message_table.cpp
   void end_frame(std::uint32_t slot) override { objects.receiver.handle_held(slot); }
+  /// A datagram may be older than the restore, and would bring back what was undone.
   void handle_datagram(std::uint32_t slot, Bytes datagram) override {
-    objects.receiver.receive(slot, datagram);
+    if (!ground.was_restored) objects.receiver.receive(slot, datagram);
   }
 };
 

@@ -21,6 +21,8 @@ std::optional<Refusal> Membership::refusal(const JoinMessage& message) const {
   const FederationSettings& settings = basis_.settings;
   if (message.federation != settings.federation) return Refusal::wrong_federation;
   if (message.name.empty()) return Refusal::bad_name;
+  if (basis_.save_phase == SavePhase::saving) return Refusal::save_in_progress;
+  if (basis_.save_phase == SavePhase::restoring) return Refusal::restore_in_progress;
   if (!settings.members.empty() &&
       std::ranges::find(settings.members, message.name) == settings.members.end())
     return Refusal::not_listed;

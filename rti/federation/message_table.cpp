@@ -30,6 +30,7 @@ class MessageTable {
   Status take(Parts& parts, Slot slot, Reader& reader) const {
     std::uint8_t kind = 0;
     reader.number(kind);
+    if (parts.saves.forbids(slot, static_cast<Kind>(kind))) return Violation::wrong_phase;
     return kind < kind_count ? handlers_[kind](parts, slot, reader) : Violation::malformed;
   }
 
@@ -62,6 +63,12 @@ class MessageTable {
     };
     at(Kind::synchronization_point_achieved) = [](Parts& parts, Slot slot, Reader& reader) {
       return parts.synchronization.handle_achieved(slot, reader);
+    };
+    at(Kind::save_request) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.saves.handle_request(slot, reader);
+    };
+    at(Kind::ambassador_state) = [](Parts& parts, Slot slot, Reader& reader) {
+      return parts.saves.handle_state(slot, reader);
     };
   }
   constexpr void add_declarations() {

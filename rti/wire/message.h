@@ -21,7 +21,7 @@
 namespace rink::rti {
 
 inline constexpr std::uint32_t protocol_magic = 0x4b4e4952;  ///< "RINK"
-inline constexpr std::uint16_t protocol_version = 12;
+inline constexpr std::uint16_t protocol_version = 13;
 
 /// The first byte of each message.
 enum class MessageKind : std::uint8_t {
@@ -66,6 +66,8 @@ enum class MessageKind : std::uint8_t {
   destroy_federation_execution = 21,
   list_federation_executions = 22,
   query_management = 23,
+  save_request = 24,
+  ambassador_state = 25,
   // objects and declarations
   request_update = 39,
   change_transportation = 40,
@@ -74,7 +76,7 @@ enum class MessageKind : std::uint8_t {
   spare_update = 47,
   local_delete = 48,
   advisory_switch = 49,
-  // free: 24 to 27 federation management, 35 time, 42 to 45 ownership, 61 and 62 the connection
+  // free: 26 and 27 federation management, 35 time, 42 to 45 ownership, 61 and 62 the connection
   // baselines
   acknowledge_keyframe = 50,
   refuse_keyframe = 51,
@@ -110,6 +112,9 @@ enum class MessageKind : std::uint8_t {
   federation_report = 78,
   federate_report = 79,
   report_end = 80,
+  save_notice = 81,
+  restored = 123,
+  save_status = 124,
   // baselines
   begin_keyframe = 110,
   deltas = 111,
@@ -131,8 +136,8 @@ enum class MessageKind : std::uint8_t {
   class_relevance = 105,
   object_relevance = 106,
   transportation = 107,
-  // free: 81 federation management, 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and
-  // declarations, 123 to 127 the connection
+  // free: 88 to 91 time, 94 to 103 ownership, 108 and 109 objects and declarations, 125 to 127 the
+  // connection
 };
 
 /// Bytes of `message` with its kind.

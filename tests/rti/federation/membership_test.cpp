@@ -47,7 +47,8 @@ struct Club : ::testing::Test {
   ObjectTable objects{plain_fom()};
   FederationCounters counters;
   double now = 0.0;
-  Membership membership{{plain_fom(), settings, federates, objects, counters, now}};
+  SavePhase save_phase = SavePhase::idle;
+  Membership membership{{plain_fom(), settings, federates, objects, counters, now, save_phase}};
   ConnectionId connection_count = 0;
 };
 
@@ -85,6 +86,15 @@ TEST_F(Club, AdmitsNobodyBeyondItsListAndItsLimit) {
   EXPECT_EQ(refusal_of(wish("bob")), std::nullopt);
   admit("ann");
   EXPECT_EQ(refusal_of(wish("bob")), Refusal::federation_full);
+}
+
+TEST_F(Club, AdmitsNobodyWhileItIsSavedOrRestored) {
+  save_phase = SavePhase::saving;
+  EXPECT_EQ(refusal_of(wish("ann")), Refusal::save_in_progress);
+  save_phase = SavePhase::restoring;
+  EXPECT_EQ(refusal_of(wish("ann")), Refusal::restore_in_progress);
+  save_phase = SavePhase::idle;
+  EXPECT_EQ(refusal_of(wish("ann")), std::nullopt);
 }
 
 TEST_F(Club, TellsWhoJoinedHisHandleAndHisBlock) {

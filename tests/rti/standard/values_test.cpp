@@ -109,7 +109,7 @@ std::pair<std::string, std::wstring> thrown_for(std::string_view name) {
 }
 
 TEST(StandardErrors, EveryErrorOfTheCoreIsTheExceptionOfItsName) {
-  for (int i = 1; i <= static_cast<int>(rti::HlaError::name_set_was_empty); ++i) {
+  for (int i = 1; i <= static_cast<int>(rti::HlaError::restore_not_in_progress); ++i) {
     const std::string name = rti::to_string(static_cast<rti::HlaError>(i));
     // Its own refusal of a shared key is no exception of the standard.
     EXPECT_EQ(thrown_for(name).first, name == "Unauthorized" ? "RTIinternalError" : name);

@@ -79,15 +79,18 @@ TEST(Admission, AnotherKeyFederationOrVersionIsRefusedWithAWord) {
   EXPECT_EQ(federate.why(), "the RTI refuses us: " + both);
 }
 
-TEST(Admission, VersionElevenIsRefusedInTheFormThatItReadsAndUnderstoodWhenItRefuses) {
-  std::vector<std::byte> hello = values_of(std::uint32_t{0x28}, std::uint8_t{58}, std::uint16_t{11},
-                                           nonce_of(3), std::uint8_t{4});
+class OlderAdmission : public ::testing::TestWithParam<std::uint16_t> {};
+INSTANTIATE_TEST_SUITE_P(OfElevenAndTwelve, OlderAdmission, ::testing::Values(11, 12));
+
+TEST_P(OlderAdmission, IsRefusedInTheFormThatItReadsAndUnderstoodWhenItRefuses) {
+  std::vector<std::byte> hello =
+      values_of(std::uint32_t{0x28}, std::uint8_t{58}, GetParam(), nonce_of(3), std::uint8_t{4});
   const std::vector<std::byte> rink = bytes_of("rink");
   hello.insert(hello.end(), rink.begin(), rink.end());
   Handshake rti(ours(), Role::rti, "rink", nonce_of(1));
   Bytes bytes = hello;
   EXPECT_EQ(rti.receive(bytes), State::failed);
-  const std::string why = "other version: 11, the RTI speaks 12";
+  const std::string why = "other version: " + std::to_string(GetParam()) + ", the RTI speaks 13";
   std::vector<std::byte> refused =
       values_of(std::uint32_t{0x27}, std::uint8_t{65}, std::uint8_t{7}, std::uint8_t{0x24});
   const std::vector<std::byte> text = bytes_of(why);
@@ -96,7 +99,7 @@ TEST(Admission, VersionElevenIsRefusedInTheFormThatItReadsAndUnderstoodWhenItRef
 
   Handshake federate(ours(), Role::federate, "rink", nonce_of(2));
   const std::vector<std::byte> head =
-      values_of(std::uint32_t{0x28}, std::uint8_t{58}, std::uint16_t{12});
+      values_of(std::uint32_t{0x28}, std::uint8_t{58}, std::uint16_t{13});
   EXPECT_TRUE(std::ranges::equal(federate.outgoing().first(head.size()), head));
   bytes = refused;
   EXPECT_EQ(federate.receive(bytes), State::failed);

@@ -14,6 +14,7 @@
 #include "rti/wire/message.h"
 #include "rti/wire/object_messages.h"
 #include "rti/wire/region_messages.h"
+#include "rti/wire/save_messages.h"
 #include "rti/wire/update_block.h"
 #include "tests/rti/rig.h"
 
@@ -120,6 +121,24 @@ TEST(Message, OfRegionsReadsBackAsItWasWrittenAndNeverFromLess) {
     expect_round_trip(ProvideUpdateMessage{dice.number<std::uint32_t>(),
                                            dice.number<std::uint32_t>(), dice.some(count)});
     expect_round_trip(FomDigestMessage{count, records});
+  }
+}
+
+TEST(Message, OfSavesReadsBackAsItWasWrittenAndNeverFromLess) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Dice dice{std::mt19937_64(seed), {}, {}};
+    const auto number = dice.number<std::uint32_t>();
+    for (std::uint8_t word = 0; word <= static_cast<std::uint8_t>(SaveWord::query_restore); ++word)
+      expect_round_trip(SaveRequestMessage{word, dice.text(), 1.5 * word, number});
+    for (std::uint8_t word = 0; word <= static_cast<std::uint8_t>(SaveNotice::not_restored); ++word)
+      expect_round_trip(
+          SaveNoticeMessage{word, number, dice.text(), 4, 1.5 * word, dice.text(), number});
+    expect_round_trip(AmbassadorStateMessage{dice.some(number % 300)});
+    expect_round_trip(RestoredMessage{number, dice.some(number % 300)});
+    const auto count = static_cast<std::uint16_t>(number % 5);
+    expect_round_trip(SaveStatusMessage{static_cast<std::uint8_t>(number % 2), count,
+                                        dice.some(count * SaveStatusMessage::record_size)});
   }
 }
 

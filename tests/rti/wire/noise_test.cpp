@@ -20,6 +20,7 @@
 #include "rti/wire/object_messages.h"
 #include "rti/wire/ownership_messages.h"
 #include "rti/wire/region_messages.h"
+#include "rti/wire/save_messages.h"
 #include "rti/wire/stamp_steps.h"
 #include "rti/wire/time_messages.h"
 #include "tests/places.h"
@@ -45,25 +46,27 @@ const std::vector<Guesser>& from_federates() {
       ChangeTransportationMessage, QueryTransportationMessage, InstanceNamesMessage,
       SpareUpdateMessage, LocalDeleteMessage, AdvisorySwitchMessage, AcknowledgeKeyframeMessage,
       RefuseKeyframeMessage, AcknowledgeDatagramsMessage, HelloMessage, ProofMessage,
-      NotifyHostMessage>();
+      NotifyHostMessage, SaveRequestMessage, AmbassadorStateMessage>();
   return all;
 }
 
 const std::vector<Guesser>& from_the_rti() {
-  static const std::vector<Guesser> all = guessers_of<
-      JoinedMessage, RefusedMessage, AnnounceSynchronizationPointMessage,
-      FederationSynchronizedMessage, FederateJoinedMessage, FederateResignedMessage,
-      DiscoverObjectMessage, RemoveObjectMessage, InScopeMessage, OutOfScopeMessage,
-      TimeRegulationEnabledMessage, TimeConstrainedEnabledMessage, TimeAdvanceGrantMessage,
-      TimedDeliveryMessage, RequestRetractionMessage, TimeBoundsMessage, FomDigestMessage,
-      ProvideUpdateMessage, SynchronizationPointRegisteredMessage,
-      FederationExecutionCreatedMessage, FederationExecutionDestroyedMessage,
-      FederationExecutionMessage, FederationReportMessage, FederateReportMessage, ReportEndMessage,
-      BeginKeyframeMessage, DeltasMessage, ResidualsMessage, OwnershipNoticeMessage,
-      InformOwnershipMessage, ChallengeMessage, AdmittedMessage, ExpelledMessage,
-      FurtherBlockMessage, InstanceNamesAnswerMessage, ClassRelevanceMessage,
-      ObjectRelevanceMessage, TransportationMessage, StampMessage, StampStepMessage, UpdatesMessage,
-      InteractionMessage, HostMessage, EntriesMessage, EntriesAgainMessage>();
+  static const std::vector<Guesser> all =
+      guessers_of<JoinedMessage, RefusedMessage, AnnounceSynchronizationPointMessage,
+                  FederationSynchronizedMessage, FederateJoinedMessage, FederateResignedMessage,
+                  DiscoverObjectMessage, RemoveObjectMessage, InScopeMessage, OutOfScopeMessage,
+                  TimeRegulationEnabledMessage, TimeConstrainedEnabledMessage,
+                  TimeAdvanceGrantMessage, TimedDeliveryMessage, RequestRetractionMessage,
+                  TimeBoundsMessage, FomDigestMessage, ProvideUpdateMessage,
+                  SynchronizationPointRegisteredMessage, FederationExecutionCreatedMessage,
+                  FederationExecutionDestroyedMessage, FederationExecutionMessage,
+                  FederationReportMessage, FederateReportMessage, ReportEndMessage,
+                  BeginKeyframeMessage, DeltasMessage, ResidualsMessage, OwnershipNoticeMessage,
+                  InformOwnershipMessage, ChallengeMessage, AdmittedMessage, ExpelledMessage,
+                  FurtherBlockMessage, InstanceNamesAnswerMessage, ClassRelevanceMessage,
+                  ObjectRelevanceMessage, TransportationMessage, StampMessage, StampStepMessage,
+                  UpdatesMessage, InteractionMessage, HostMessage, EntriesMessage,
+                  EntriesAgainMessage, SaveNoticeMessage, RestoredMessage, SaveStatusMessage>();
   return all;
 }
 

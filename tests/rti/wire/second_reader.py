@@ -435,6 +435,25 @@ class Reader:
         told = [(self.u32(), self.u32()) for _ in range(self.u16())]
         return ["digest of %d elements of %s model" % (len(told), "this" if told == parts.digest(self.model) else "another")]
 
+    def save_request(self):
+        word = SAVE_WORDS[self.u8()]
+        label = " " + self.text() if word.startswith("request") else ""
+        time = " " + self.f64() if word == "request_at_time" else ""
+        return ["save %s%s%s %d" % (word, label, time, self.varint())]
+
+    def save_notice(self):
+        notice = SAVE_NOTICES[self.u8()]
+        line = "save_notice %s %d %s" % (notice, self.varint(), self.text())
+        if notice == "initiate_at_time":
+            line += " " + self.f64()
+        if notice.startswith("not_"):
+            line += " %d" % self.u8()
+        if notice == "restore_refused":
+            line += " " + self.text()
+        if notice == "initiate_restore":
+            line += " %s %d" % (self.text(), self.u32())
+        return [line]
+
     def passive(self):
         return ("active", "passive")[self.u8()]
 
@@ -500,6 +519,8 @@ UP = {
     48: lambda r: ["local_delete %d" % r.varint()],
     49: lambda r: ["attribute_relevance_advisory %d" % r.u8()],
     23: lambda r: ["query_management"],
+    24: Reader.save_request,
+    25: lambda r: ["ambassador_state %d" % len(r.take(r.u16()))],
     28: lambda r: ["enable_time_regulation " + r.f64()],
     29: lambda r: [("enable_time_constrained", "disable_time_constrained", "disable_time_regulation")[r.u8()]],
     30: lambda r: ["modify_lookahead " + r.f64()],
@@ -523,6 +544,9 @@ UP = {
     57: lambda r: ["send_within %s %s %s %s" % (r.interaction_class(), r.read_stamp(), r.handles(), r.short_bytes())],
 }
 ADVANCES = ("time_advance_request", "time_advance_request_available", "next_message_request", "next_message_request_available", "flush_queue_request")
+SAVE_WORDS = ("request", "request_at_time", "begun", "complete", "not_complete", "abort", "query", "request_restore", "restore_complete", "restore_not_complete",
+              "abort_restore", "query_restore")
+SAVE_NOTICES = ("initiate", "initiate_at_time", "saved", "not_saved", "restore_confirmed", "restore_refused", "restore_begun", "initiate_restore", "not_restored")
 OWNERSHIP_REQUESTS = ("divest", "offer", "confirm", "deny_release", "give_if_wanted", "withdraw_offer", "acquire", "acquire_if_available", "cancel_acquisition")
 OWNERSHIP_NOTICES = ("assumption_requested", "confirmation_requested", "acquired", "unavailable", "release_requested", "acquisition_cancelled", "divested", "kept", "kept_offered")
 DOWN = {
@@ -553,6 +577,9 @@ DOWN = {
     78: Reader.report,
     79: Reader.federate_report,
     80: lambda r: ["report ends"],
+    81: Reader.save_notice,
+    123: lambda r: ["restored %d %d" % (r.u32(), len(r.take(r.varint())))],
+    124: lambda r: ["save_status %d %s" % (r.u8(), " ".join("%d:%d:%d" % (r.u32(), r.u32(), r.u8()) for _ in range(r.u16())))],
     82: lambda r: ["time_regulation_enabled %s %s" % (r.f64(), r.f64())],
     83: lambda r: ["time_constrained_enabled " + r.f64()],
     84: lambda r: ["time_advance_grant " + r.f64()],
