@@ -9,6 +9,7 @@
 #include "game/apps/command.h"
 #include "game/net/address.h"
 #include "game/net/gate.h"
+#include "rti/save/save_directory.h"
 
 namespace rink::game {
 namespace {
@@ -18,6 +19,8 @@ rti::DirectorySettings settings_of(const RtiOptions& options) {
   settings.federation.filter = options.scheme;
   settings.federation.federate_max = options.federates_max;
   settings.execution_max = options.executions_max;
+  if (!options.save.empty())
+    settings.services.save_store = std::make_shared<rti::SaveDirectory>(options.save);
   return settings;
 }
 

@@ -18,7 +18,7 @@ namespace rink::game {
 
 struct RtiOptions {
   std::vector<std::string> fom{}, check{}, federations{};
-  std::string listen = "127.0.0.1:7000", transport = "tcp", scheme = "none", key_file{};
+  std::string listen = "127.0.0.1:7000", transport = "tcp", scheme = "none", key_file{}, save{};
   double rate_limit_bytes_per_s = 0.0, frame_limit_per_s = 0.0;  ///< of each federate; 0: none
   std::optional<std::uint32_t> address_limit{};                  ///< see GateSettings
   std::uint32_t federates_max = 16'000, executions_max = 64;

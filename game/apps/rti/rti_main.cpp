@@ -104,6 +104,12 @@ void add_options(Flags& flags, RtiOptions& options) {
               "admit only federates with the same file (docs/rti.md, Admission); without it: all")
       .check(existing_file());
   flags
+      .option("--save", options.save,
+              "the directory in which federations are saved and from which they are restored "
+              "(docs/rti.md, Save and restore); without it they cannot be")
+      .check(not_empty())
+      .value_name("DIR");
+  flags
       .option("--address-limit", options.address_limit,
               "connections that one address may have; 0: any; by default half of the files "
               "that this process may open, for addresses of other machines alone")

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <signal.h>
+
 #include <chrono>
 #include <fstream>
 #include <string>
@@ -143,6 +145,66 @@ TEST_F(RtiCommand, HostsFederationsOfStrangersAndEndsInGoodOrder) {
   EXPECT_EQ(server.ending()->exit_status, 0) << server.stderr_tail();
   EXPECT_FALSE(first.run([&] { return false; }));
   EXPECT_EQ(captain.lost, "the RTI closed the connection: the RTI has ended");
+}
+
+/// Saves and restores itself at once, for it has nothing but what the RTI keeps.
+struct Diver : Sailor {
+  rti::Ambassador* ambassador = nullptr;
+  bool is_saved = false, is_restored = false;
+  std::string refused;
+  void initiate_federate_save(std::string_view) override {
+    ambassador->federate_save_begun();
+    ambassador->federate_save_complete();
+  }
+  void federation_saved() override { is_saved = true; }
+  void initiate_federate_restore(std::string_view, std::string_view, rti::FederateHandle) override {
+    ambassador->federate_restore_complete();
+  }
+  void federation_restored() override { is_restored = true; }
+  void request_federation_restore_failed(std::string_view label, std::string_view why) override {
+    refused = std::string(label) + ": " + std::string(why);
+  }
+};
+
+TEST_F(RtiCommand, BringsAFederationBackAfterItWasKilled) {
+  const rti::Fom fom = rti::Fom::load(harbour_);
+  const rti::ObjectClassHandle ship = *fom.object_class("Ship");
+  rti::ObjectHandle pequod;
+  for (const bool is_second : {false, true}) {
+    Process server(test::binary_folder() + "/bin/rink-rti",
+                   {"--fom", harbour_, "--listen", "127.0.0.1:0", "--federation", "harbour",
+                    "--save", file("saves")},
+                   {});
+    Diver diver;
+    rti::TcpFederate federate(fom, diver, {.port = port_of(server)});
+    rti::Ambassador& ambassador = federate.ambassador();
+    diver.ambassador = &ambassador;
+    ambassador.join("harbour", "diver", "ship");
+    ASSERT_TRUE(federate.run([&] { return ambassador.is_joined(); })) << diver.lost;
+    if (!is_second) {
+      ambassador.publish_object_class_attributes(ship, fom.attributes(ship));
+      pequod = ambassador.register_object_instance(ship, "Pequod");
+      ambassador.request_federation_save("noon");
+      ASSERT_TRUE(federate.run([&] { return diver.is_saved; })) << diver.lost;
+      ::kill(server.id(), SIGKILL);
+      while (!server.ending()) server.attend(10ms);
+      continue;
+    }
+    ambassador.request_federation_restore("midnight");
+    ASSERT_TRUE(federate.run([&] { return !diver.refused.empty(); })) << diver.lost;
+    EXPECT_EQ(diver.refused, "midnight: there is none");
+    ambassador.request_federation_restore("noon");
+    ASSERT_TRUE(federate.run([&] { return diver.is_restored; })) << diver.lost;
+    EXPECT_EQ(ambassador.get_object_instance_handle("Pequod"), pequod);
+    ambassador.delete_object_instance(pequod);
+    ASSERT_TRUE(federate.run_for(0.05)) << diver.lost;
+    server.stop(5s);
+  }
+}
+
+TEST_F(RtiCommand, RefusesAPlaceForSavesThatIsNoDirectory) {
+  EXPECT_EQ(run("rti --fom " + harbour_ + " --listen 127.0.0.1:0 --save " + harbour_), 2);
+  EXPECT_THAT(said_, HasSubstr("'" + harbour_ + "' is no directory in which saves can be written"));
 }
 
 TEST_F(RtiCommand, AdmitsOnlyThoseWithItsKey) {
