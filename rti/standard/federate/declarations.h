@@ -6,6 +6,7 @@
 #include <set>
 
 #include "rti/fom/fom.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::standard {
 
@@ -14,6 +15,11 @@ struct ObjectClassDeclaration {
   rti::AttributeSet published;
   rti::AttributeSet active, passive;  ///< subscribed without a region
   std::map<rti::RegionHandle, rti::AttributeSet> regional{};
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, published, active, passive, regional);
+  }
 
   rti::AttributeSet subscribed() const {
     rti::AttributeSet all = active | passive;
@@ -26,12 +32,20 @@ struct InteractionClassDeclaration {
   std::set<rti::RegionHandle> regions{};
 
   bool is_wanted() const { return is_subscribed || !regions.empty(); }
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, is_subscribed, regions);
+  }
 };
 
 struct Declarations {
   std::map<rti::ObjectClassHandle, ObjectClassDeclaration> objects{};
   std::map<rti::InteractionClassHandle, InteractionClassDeclaration> interactions{};
 
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, objects, interactions);
+  }
   rti::AttributeSet subscribed(rti::ObjectClassHandle object_class) const {
     const auto found = objects.find(object_class);
     return found == objects.end() ? rti::AttributeSet() : found->second.subscribed();

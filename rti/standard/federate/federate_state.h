@@ -14,6 +14,7 @@
 #include "rti/standard/federate/deliveries.h"
 #include "rti/standard/times.h"
 #include "rti/standard/values.h"
+#include "rti/wire/state_stream.h"
 
 namespace rink::standard {
 
@@ -22,6 +23,11 @@ struct KnownObject {
   rti::ObjectClassHandle object_class;  ///< as the federate knows it
   std::string name;
   rti::ObjectClassHandle registered;  ///< as its owner has registered it
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, object_class, name, registered);
+  }
 };
 
 /// An object that the federate deletes at the time of the handle.
@@ -29,12 +35,22 @@ struct TimedDeletion {
   rti::RetractionHandle handle;
   rti::ObjectHandle object;
   KnownObject known;
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, handle.sender, handle.number, handle.time, object, known);
+  }
 };
 
 /// Time as the federate has been told it: the core may be a few callbacks ahead.
 struct ToldTime {
   double now = 0.0;
   bool is_advancing = false, is_regulation_pending = false, is_constrained_pending = false;
+
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, now, is_advancing, is_regulation_pending, is_constrained_pending);
+  }
 };
 
 /// Answers of the RTI that a service waits for.
@@ -63,6 +79,12 @@ struct FederateState {
   void retract(const rti::RetractionHandle& handle);
   /// Forgets an execution.
   void leave();
+  /// What belongs to a saved federation.
+  template <class Stream>
+  bool keep(Stream& stream) {
+    return rti::keep_all(stream, declarations, objects, deletions, reserved_names, time,
+                         resign_directive);
+  }
 
   Deliveries deliveries{};
   Times times{};

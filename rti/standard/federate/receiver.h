@@ -33,6 +33,22 @@ class Receiver final : public rti::FederateAmbassador {
   void federate_joined(rti::FederateHandle federate, std::string_view name,
                        std::string_view type) override;
 
+  void initiate_federate_save(std::string_view label) override;
+  void initiate_federate_save_with_time(std::string_view label, rti::LogicalTime time) override;
+  void federation_saved() override;
+  void federation_not_saved(rti::SaveFailure failure, std::string_view why) override;
+  void federation_save_status_response(std::span<const rti::FederateSaveStatus> all) override;
+  void request_federation_restore_succeeded(std::string_view label) override;
+  void request_federation_restore_failed(std::string_view label, std::string_view why) override;
+  void federation_restore_begun() override;
+  void initiate_federate_restore(std::string_view label, std::string_view name,
+                                 rti::FederateHandle federate) override;
+  void federation_restored() override;
+  void federation_not_restored(rti::RestoreFailure failure, std::string_view why) override;
+  void federation_restore_status_response(std::span<const rti::FederateRestoreStatus> all) override;
+  void write_state(std::vector<std::byte>& state) override;
+  bool read_state(rti::Bytes state) override;
+
   void start_registration_for_object_class(rti::ObjectClassHandle object_class) override;
   void stop_registration_for_object_class(rti::ObjectClassHandle object_class) override;
   void turn_interactions_on(rti::InteractionClassHandle interaction_class) override;

@@ -1,48 +1,60 @@
-// Save and restore, which Rink does not offer.
+// Save and restore.
 #include "rti/standard/services/save_services.h"
+
+#include "rti/standard/wide_text.h"
 
 namespace rink::standard {
 
-namespace {
-
-/// What a federate outside an execution gets is the standard's refusal all the same.
-void refuse_saving(Federate& federate, const std::wstring& service) {
-  federate.call([&](rti::Ambassador&, FederateState&) {
-    throw rti1516e::RTIinternalError(service + L": this RTI neither saves nor restores");
+void SaveServices::requestFederationSave(std::wstring const& label) {
+  federate().call_at_once(
+      [&](rti::Ambassador& core, FederateState&) { core.request_federation_save(to_utf8(label)); });
+}
+void SaveServices::requestFederationSave(std::wstring const& label,
+                                         rti1516e::LogicalTime const& theTime) {
+  federate().call_at_once([&](rti::Ambassador& core, FederateState& state) {
+    core.request_federation_save(to_utf8(label), rti::LogicalTime(state.times.number(theTime)));
   });
 }
-
-}  // namespace
-
-void SaveServices::requestFederationSave(std::wstring const&) {
-  refuse_saving(federate(), L"requestFederationSave");
+void SaveServices::federateSaveBegun() {
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.federate_save_begun(); });
 }
-void SaveServices::requestFederationSave(std::wstring const&, rti1516e::LogicalTime const&) {
-  refuse_saving(federate(), L"requestFederationSave");
+void SaveServices::federateSaveComplete() {
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.federate_save_complete(); });
 }
-void SaveServices::federateSaveBegun() { refuse_saving(federate(), L"federateSaveBegun"); }
-void SaveServices::federateSaveComplete() { refuse_saving(federate(), L"federateSaveComplete"); }
 void SaveServices::federateSaveNotComplete() {
-  refuse_saving(federate(), L"federateSaveNotComplete");
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.federate_save_not_complete(); });
 }
-void SaveServices::abortFederationSave() { refuse_saving(federate(), L"abortFederationSave"); }
+void SaveServices::abortFederationSave() {
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.abort_federation_save(); });
+}
 void SaveServices::queryFederationSaveStatus() {
-  refuse_saving(federate(), L"queryFederationSaveStatus");
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.query_federation_save_status(); });
 }
-void SaveServices::requestFederationRestore(std::wstring const&) {
-  refuse_saving(federate(), L"requestFederationRestore");
+void SaveServices::requestFederationRestore(std::wstring const& label) {
+  federate().call_at_once([&](rti::Ambassador& core, FederateState&) {
+    core.request_federation_restore(to_utf8(label));
+  });
 }
 void SaveServices::federateRestoreComplete() {
-  refuse_saving(federate(), L"federateRestoreComplete");
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.federate_restore_complete(); });
 }
 void SaveServices::federateRestoreNotComplete() {
-  refuse_saving(federate(), L"federateRestoreNotComplete");
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.federate_restore_not_complete(); });
 }
 void SaveServices::abortFederationRestore() {
-  refuse_saving(federate(), L"abortFederationRestore");
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.abort_federation_restore(); });
 }
 void SaveServices::queryFederationRestoreStatus() {
-  refuse_saving(federate(), L"queryFederationRestoreStatus");
+  federate().call_at_once(
+      [](rti::Ambassador& core, FederateState&) { core.query_federation_restore_status(); });
 }
 
 }  // namespace rink::standard

@@ -107,23 +107,6 @@ TEST(StandardFederation, SynchronizationPointsAreAnnouncedAndReached) {
   EXPECT_FALSE(first.log.has("announced own "));
 }
 
-TEST(StandardFederation, NothingIsSavedOrRestored) {
-  const Harbour harbour;
-  Sailor sailor(harbour, L"sailor");
-  EXPECT_THROW(sailor->requestFederationSave(L"x"), RTIinternalError);
-  EXPECT_THROW(sailor->requestFederationSave(L"x", HLAfloat64Time(1.0)), RTIinternalError);
-  EXPECT_THROW(sailor->federateSaveBegun(), RTIinternalError);
-  EXPECT_THROW(sailor->federateSaveComplete(), RTIinternalError);
-  EXPECT_THROW(sailor->federateSaveNotComplete(), RTIinternalError);
-  EXPECT_THROW(sailor->abortFederationSave(), RTIinternalError);
-  EXPECT_THROW(sailor->queryFederationSaveStatus(), RTIinternalError);
-  EXPECT_THROW(sailor->requestFederationRestore(L"x"), RTIinternalError);
-  EXPECT_THROW(sailor->federateRestoreComplete(), RTIinternalError);
-  EXPECT_THROW(sailor->federateRestoreNotComplete(), RTIinternalError);
-  EXPECT_THROW(sailor->abortFederationRestore(), RTIinternalError);
-  EXPECT_THROW(sailor->queryFederationRestoreStatus(), RTIinternalError);
-}
-
 TEST(StandardFederation, AFederateWhoseRtiEndsIsToldSoOnce) {
   for (const CallbackModel model : {HLA_EVOKED, HLA_IMMEDIATE}) {
     Harbour harbour;

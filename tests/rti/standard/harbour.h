@@ -29,7 +29,9 @@ inline std::string model_file() { return test::source_folder() + "/tests/rti/sta
 /// An RTI over TCP on a thread of its own, at a free port.
 class Harbour {
  public:
-  Harbour() : fom_(rti::Fom::load(model_file())), host_(directory_) {
+  /// Federations can be saved where there is a store.
+  explicit Harbour(const std::shared_ptr<rti::SaveStore>& store = {})
+      : fom_(rti::Fom::load(model_file())), directory_(settings_of(store)), host_(directory_) {
     directory_.offer(fom_);
     port_ = tcp_.listen("127.0.0.1", 0);
     host_.add(tcp_);
@@ -49,6 +51,11 @@ class Harbour {
   }
 
  private:
+  static rti::DirectorySettings settings_of(const std::shared_ptr<rti::SaveStore>& store) {
+    rti::DirectorySettings settings;
+    settings.services.save_store = store;
+    return settings;
+  }
   static double now_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
