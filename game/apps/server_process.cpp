@@ -10,9 +10,9 @@
 
 #include "game/apps/command.h"
 #include "game/model/report_fields.h"
-#include "game/model/scene_file.h"
 #include "game/net/gate.h"
 #include "game/net/interrupt.h"
+#include "game/net/server/overload/standstill.h"
 #include "game/net/server/serve_requirements.h"
 #include "game/replication/names.h"
 
@@ -81,12 +81,6 @@ ServerProcess::ServerProcess(const ServeOptions& options, const rti::Fom& fom,
                            options.rate_hz);
 }
 
-std::optional<Hosting> ServerProcess::hosting_of(const ServeOptions& options) {
-  if (options.hosted.empty()) return std::nullopt;
-  return Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s},
-                 .scene_text = scene_text(options.scene)};
-}
-
 /// Never decreases: a tick that is cut short stops it until real time has caught up.
 double ServerProcess::simulated_now() const {
   const double now = start_s_ == 0.0 ? begin_s_
@@ -149,9 +143,10 @@ bool ServerProcess::start() {
 
 /// The tick that comes next instead of one that is too far behind, with all that happened since.
 std::uint64_t ServerProcess::leave_out(std::uint64_t number, std::uint64_t last, bool is_counted) {
-  if (!overload_) return number;
   const double due_s = start_s_ + static_cast<double>(number) / options_.rate_hz;
-  const std::uint64_t left_out = std::min(overload_->ticks_left_out(due_s, now_s()), last - number);
+  const std::uint64_t late = overload_ ? overload_->ticks_left_out(due_s, now_s())
+                                       : ticks_stood_still(options_, due_s, now_s()),
+                      left_out = std::min(late, last - number);
   if (is_counted) costs_.ticks_left_out += left_out;
   return number + left_out;
 }

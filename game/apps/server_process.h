@@ -61,7 +61,6 @@ class ServerProcess {
   rti::TransportCounters totals() const { return sockets_.totals(); }
 
  private:
-  static std::optional<Hosting> hosting_of(const ServeOptions& options);
   double simulated_now() const;
   void wait(double seconds);
   void exchange_until(double until_s);

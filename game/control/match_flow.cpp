@@ -148,6 +148,21 @@ void MatchFlow::fall_behind(double now_s, double simulated_s) {
   state_.clock_simulated_s = simulated_s;
 }
 
+void MatchFlow::stand_still(double from_s, double now_s) {
+  assert(from_s <= now_s);
+  advance(from_s);
+  if (state_.phase == MatchPhase::playing) {
+    state_.clock_simulated_s = simulated_at(state_, from_s);
+    state_.clock_real_s = now_s;
+    count_down(now_s);
+  } else if (state_.phase == MatchPhase::countdown) {
+    count_down(now_s);
+  } else if (state_.phase == MatchPhase::away) {
+    state_.until_s += now_s - from_s;
+  }
+  if constexpr (checks_whole_structures) check();
+}
+
 void MatchFlow::win(Team winner, double now_s) {
   assert(winner != Team::none);
   assert((state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown ||

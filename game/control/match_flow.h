@@ -88,6 +88,9 @@ class MatchFlow {
   /// The game has come no further than `simulated_s` [s], for it has too many events; players go on
   /// counting from there.
   void fall_behind(double now_s, double simulated_s);
+  /// The host itself stood still from `from_s` to `now_s`, both real time [s]: nothing of that
+  /// counts. A match that was played goes on after a countdown.
+  void stand_still(double from_s, double now_s);
   /// `winner`, a team that has an end, has scored the last goal of the game.
   void win(Team winner, double now_s);
 

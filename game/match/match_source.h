@@ -77,11 +77,13 @@ struct MatchSight {
   std::optional<std::uint32_t> own_thing;  ///< the id of the player's bat in a crowd
   bool can_rematch = true;                 ///< once it is over
   bool wants_rematch = false, other_wants_rematch = false;
-  std::string notice;                    ///< one line for the player, or nothing
-  std::vector<Noise> noises;             ///< since the last advance
-  std::optional<LinkFigures> link;       ///< of a match over a network
-  std::optional<InterestSeen> interest;  ///< of a crowd that is inspected
-  std::optional<ZonesSeen> zones;        ///< of a game that peers share
+  std::optional<double> interrupted_s{};  ///< for how long the host has said nothing [s], if it is
+                                          ///< too long to play on
+  std::string notice;                     ///< one line for the player, or nothing
+  std::vector<Noise> noises;              ///< since the last advance
+  std::optional<LinkFigures> link;        ///< of a match over a network
+  std::optional<InterestSeen> interest;   ///< of a crowd that is inspected
+  std::optional<ZonesSeen> zones;         ///< of a game that peers share
 };
 
 /// A running match. Knows no clock: `now_s` is real time [s] from any origin and never falls.

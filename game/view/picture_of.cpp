@@ -84,6 +84,16 @@ void add_countdown(const MatchSight& sight, std::vector<Text>& texts) {
                    .colour = colour});
 }
 
+void add_interruption(double seconds, std::vector<Text>& texts) {
+  texts.push_back(
+      {.words = "CONNECTION INTERRUPTED", .y = 0.42f, .size = 0.085f, .colour = bright});
+  texts.push_back({.words = "for " + std::to_string(static_cast<int>(seconds)) +
+                            " s   the match goes on if it is back within 30 s",
+                   .y = 0.51f,
+                   .size = 0.042f,
+                   .colour = bright});
+}
+
 void add_headlines(const MatchSight& sight, const Palette& palette, std::vector<Text>& texts) {
   const auto headline = [&](const std::string& words, const std::string& below,
                             const Colour& colour) {
@@ -93,7 +103,8 @@ void add_headlines(const MatchSight& sight, const Palette& palette, std::vector<
   };
   const std::string score =
       std::to_string(sight.score.left) + " : " + std::to_string(sight.score.right);
-  if (sight.phase == Phase::countdown) add_countdown(sight, texts);
+  if (sight.interrupted_s) add_interruption(*sight.interrupted_s, texts);
+  else if (sight.phase == Phase::countdown) add_countdown(sight, texts);
   else if (sight.phase == Phase::playing && sight.scorer)
     headline("GOAL", score, toned(colour_of(*sight.scorer, palette), 0.15f));
   else if (sight.phase == Phase::paused) headline("PAUSED", "", bright);
@@ -112,7 +123,7 @@ void add_headlines(const MatchSight& sight, const Palette& palette, std::vector<
 
 /// Whose time with the puck runs out, or has run out.
 void add_possession(const MatchSight& sight, const Palette& palette, std::vector<Text>& texts) {
-  if (sight.phase != Phase::playing || sight.scorer) return;
+  if (sight.phase != Phase::playing || sight.scorer || sight.interrupted_s) return;
   const auto line = [&](const std::string& words, game::Team team) {
     texts.push_back({.words = words,
                      .y = 0.2f,
@@ -247,7 +258,8 @@ Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewCh
   if (sight.scorer)
     (*sight.scorer == game::Team::right ? picture.left_glow : picture.right_glow) =
         static_cast<float>(std::exp(-1.6 * sight.since_goal_s));
-  const bool is_stopped = sight.phase != Phase::playing && sight.phase != Phase::countdown;
+  const bool is_stopped =
+      sight.interrupted_s || (sight.phase != Phase::playing && sight.phase != Phase::countdown);
   picture.dimming = is_stopped ? 0.55f : sight.phase == Phase::countdown ? 0.25f : 0.0f;
   add_names(sight, choice, picture.texts);
   add_headlines(sight, palette, picture.texts);

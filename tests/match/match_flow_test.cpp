@@ -107,6 +107,36 @@ TEST_F(AMatch, CannotBeRematchedPausedOrResumedWhenThatMeansNothing) {
   EXPECT_EQ(phase(), MatchPhase::over);
 }
 
+TEST_F(AMatch, GoesOnAfterACountdownFromWhereItsHostStoodStill) {
+  start();
+  const double began_s = flow.state().clock_real_s;
+  flow.stand_still(began_s + 2.0, began_s + 12.0);
+  EXPECT_EQ(phase(), MatchPhase::countdown);
+  EXPECT_EQ(flow.state().until_s, began_s + 15.0);
+  EXPECT_EQ(simulated_at(flow.state(), began_s + 14.9), 2.0);
+  flow.advance(began_s + 16.0);
+  EXPECT_TRUE(flow.runs());
+  EXPECT_EQ(simulated_at(flow.state(), began_s + 16.0), 3.0) << "ten seconds and a countdown later";
+}
+
+TEST_F(AMatch, GivesAnAbsentPlayerTheTimeInWhichItsHostStoodStill) {
+  start();
+  flow.leave(0, 30.0);
+  const double until_s = flow.state().until_s;
+  flow.stand_still(31.0, 61.0);
+  flow.advance(until_s + 29.0);
+  EXPECT_EQ(phase(), MatchPhase::away);
+  flow.advance(until_s + 30.0);
+  EXPECT_EQ(phase(), MatchPhase::over);
+}
+
+TEST_F(AMatch, CountsItsCountdownAnewAfterItsHostStoodStill) {
+  flow.enter(0, 1.0), flow.enter(1, 2.0);
+  flow.stand_still(3.0, 20.0);
+  EXPECT_EQ(phase(), MatchPhase::countdown);
+  EXPECT_EQ(flow.state().until_s, 23.0);
+}
+
 TEST_F(AMatch, WaitsAgainWhenAllHaveLeftOrOneLeavesAfterTheEnd) {
   start();
   flow.leave(0, 30.0), flow.leave(1, 31.0);

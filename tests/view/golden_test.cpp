@@ -180,6 +180,10 @@ TEST_F(GoldenImages, OfANetworkMatch) {
   sight.phase = Phase::waiting;
   play(sight);
   expect_golden("waiting");
+  sight.phase = Phase::playing;
+  sight.interrupted_s = 7.9;
+  play(sight);
+  expect_golden("interrupted");
 }
 
 TEST_F(GoldenImages, OfACrowdWithItsOverlay) {

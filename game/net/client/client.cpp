@@ -33,7 +33,7 @@ Client::Client(const rti::Fom& fom, const ObjectModel& model, const ClientSettin
     : model_(model),
       settings_(settings),
       replicas_(model),
-      ambassador_(fom, *this),
+      ambassador_(fom, *this, settings.timeouts),
       view_(settings.view_margin) {
   if (settings.extrapolates) replicas_.extrapolate();
   ambassador_.join(settings.federation, settings.name,

@@ -42,6 +42,7 @@ struct ClientSettings {
   bool plays_match = false;   ///< a hosted one: receives its state, may pause it and ask for
                               ///< another
   bool only_watches = false;  ///< takes no bat; sees the whole field
+  rti::Timeouts timeouts{};   ///< of a silent host
   bool computes = true;       ///< what it knows, where the server's policy is "exact"; else it is
                               ///< sent trajectories there
 };

@@ -5,6 +5,7 @@ namespace rink::game {
 namespace {
 
 constexpr double match_patience_s = 3.0;  ///< for the state of a match, once joined
+constexpr double join_patience_s = 5.0;   ///< for the first word
 
 }  // namespace
 
@@ -29,7 +30,9 @@ void HostLink::lose(const std::string& why) {
 
 void HostLink::converse(double now_s) {
   transport_.poll({}, links_);
+  if (!begun_s_) begun_s_ = now_s;
   if (!joined_s_ && client_.ambassador().is_joined()) joined_s_ = now_s;
+  listen(now_s);
   look_for_errors(now_s);
   if (is_lost()) return;
   if (const auto pong = client_.remote()->take_pong())
@@ -37,6 +40,14 @@ void HostLink::converse(double now_s) {
   clock_.advance(now_s);
   if (!client_.ambassador().is_joined() || !client_.replicas().has_match()) return;
   if (const auto question = clock_.ask(now_s)) client_.remote()->ping(*question);
+}
+
+/// A window that itself stood still reads first what has come meanwhile.
+void HostLink::listen(double now_s) {
+  const std::uint64_t frames = client_.ambassador().counters().frames_received;
+  if (!joined_s_ || frames != heard_frames_) heard_s_ = now_s;
+  heard_frames_ = frames;
+  silent_s_ = now_s - heard_s_;
 }
 
 void HostLink::look_for_errors(double now_s) {
@@ -48,6 +59,8 @@ void HostLink::look_for_errors(double now_s) {
     lose(beginning + client_.joining().error());
   else if (link_.is_finished())
     lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
+  else if (!joined_s_ && now_s > *begun_s_ + join_patience_s)
+    lose(beginning + "it accepts the connection, but says nothing");
   else if (is_player_ && joined_s_ && now_s > *joined_s_ + match_patience_s &&
            !client_.replicas().has_match())
     lose("no match is hosted there; the game can be watched");

@@ -23,7 +23,8 @@ ClientSettings NetworkMatch::client_settings(const NetworkMatchSettings& setting
           .name = settings.name,
           .view_fraction = 1.0,
           .plays_match = true,
-          .only_watches = settings.only_watches};
+          .only_watches = settings.only_watches,
+          .timeouts = {.lost_after_s = interruption_max_s}};
 }
 
 NetworkMatch::NetworkMatch(const rti::Fom& fom, const ObjectModel& model, rti::Transport& transport,
@@ -77,7 +78,11 @@ void NetworkMatch::receive(double now_s) {
   const bool did_run = state_.phase == MatchPhase::playing && received_s > state_.clock_simulated_s;
   if (did_run && rink_ && rink_->has_received() && match_number_ == replicas.match().number)
     delay_.received(rink_->now(), received_s - replicas.match_tick() - tick_grid);
+  const bool was_played = state_.phase == MatchPhase::playing;
   state_ = replicas.match();
+  if (was_played && state_.phase == MatchPhase::countdown && match_number_ == state_.number &&
+      rink_)
+    rink_->rewind(state_.clock_simulated_s);  // the host stood still, and goes on from there
   if (!read_scene()) return;
   const std::optional<ReceivedRink> news = scene_.received(replicas, client_.bat());
   if (!news) return;
@@ -102,7 +107,8 @@ bool NetworkMatch::read_scene() {
 }
 
 void NetworkMatch::predict(double now_s) {
-  if (!rink_ || !host_.clock().is_set()) return;
+  // Of an interrupted match nobody knows how it goes on, so it stands still.
+  if (!rink_ || !host_.clock().is_set() || host_.is_interrupted()) return;
   const double instant = simulated_at(state_, host_.clock().arrival(now_s));
   const bool does_run =
       state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown;

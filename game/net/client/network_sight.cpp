@@ -11,6 +11,8 @@ void NetworkMatch::show(double now_s) {
   show_state(now_s);
   show_interest(now_s);
   sight_.notice = !host_.is_lost() && !host_.has_joined() ? "connecting ..." : host_.error();
+  sight_.interrupted_s.reset();
+  if (!host_.is_lost() && host_.is_interrupted()) sight_.interrupted_s = host_.silent_s();
   if (!host_.is_lost() && state_.is_unrecorded && sight_.phase != MatchPhase::playing)
     sight_.notice = "The host could not record the last match";
   show_link(now_s);

@@ -15,6 +15,12 @@ HostedMatch::HostedMatch(const Hosting& hosting, const Scene& scene)
   assert(!match_objection(scene));
 }
 
+void HostedMatch::pass(double now_s) {
+  if (!led_ && passed_s_ && now_s > *passed_s_ + stood_still_s)
+    flow_.stand_still(*passed_s_, now_s);
+  passed_s_ = std::max(now_s, passed_s_.value_or(now_s));
+}
+
 bool HostedMatch::advance(double now_s) {
   if (!led_) flow_.advance(now_s);
   return present().number != number_;

@@ -33,6 +33,11 @@ class HostedMatch {
   /// it from now on.
   void follow(const MatchState& state) { led_ = state; }
 
+  /// Time has passed to `now_s`. Call it before all else that has a time: if it was not called for
+  /// longer than `stood_still_s` [s], the host stood still meanwhile, which is left out.
+  void pass(double now_s);
+  static constexpr double stood_still_s = 1.0;
+
   void enter(std::uint32_t player, double now_s) {
     if (!led_) flow_.enter(player, now_s);
   }
@@ -81,8 +86,9 @@ class HostedMatch {
   Hosting hosting_;
   Scene scene_;
   MatchFlow flow_;
-  std::optional<MatchState> led_;  ///< instead of the flow's, by another
-  std::uint32_t number_ = 0;       ///< of the match that was begun last
+  std::optional<double> passed_s_;  ///< real time
+  std::optional<MatchState> led_;   ///< instead of the flow's, by another
+  std::uint32_t number_ = 0;        ///< of the match that was begun last
   double earlier_s_ = 0.0;
   std::vector<KeyLog> finished_;
   bool is_recorded_ = false;  ///< the present match

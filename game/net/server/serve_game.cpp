@@ -31,6 +31,12 @@ ServedGame served_game(const ServeOptions& options) {
   return played;
 }
 
+std::optional<Hosting> hosting_of(const ServeOptions& options) {
+  if (options.hosted.empty()) return std::nullopt;
+  return Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s},
+                 .scene_text = scene_text(options.scene)};
+}
+
 KeyLog record_of(const ServedGame& played, const Server& server) {
   KeyLog log = log_of(server.game(), played.scene, scene_text(played.choice.scene),
                       server.keys().recorded());

@@ -27,6 +27,9 @@ struct ServedGame {
 /// Throws SceneError naming the file that cannot be read or does not fit the scene.
 ServedGame served_game(const ServeOptions& options);
 
+/// How matches are hosted; nothing if none are.
+std::optional<Hosting> hosting_of(const ServeOptions& options);
+
 /// The record of the game up to now, for a replay with a comparison of the hash.
 KeyLog record_of(const ServedGame& played, const Server& server);
 

@@ -51,19 +51,30 @@ std::optional<Answered> next_answered(SharedPlay& shared, Seats& seats) {
   return std::nullopt;
 }
 
+/// A host of matches that stood still goes on, while one of several nodes was lost by the others.
+rti::Timeouts timeouts_of(const ServerSettings& settings) {
+  constexpr double ever = 1e9;
+  return settings.hosting && settings.shared == nullptr ? rti::Timeouts{.lost_after_s = ever}
+                                                        : rti::Timeouts{};
+}
+
 }  // namespace
 
 Server::Server(const rti::Fom& fom, const Scene& scene, const ServerSettings& settings,
                std::function<double()> now)
     : model_(fom),
-      now_(std::move(now)),
+      now_([this, clock = std::move(now)] {
+        const double now_s = clock();
+        if (hosted_) hosted_->pass(now_s);
+        return now_s;
+      }),
       game_(settings.state.empty() ? Game(scene)
                                    : game_in_state(settings.state, scene, "ServerSettings")),
       is_replay_(settings.replay.has_value()),
       shared_(settings.shared),
       policy_(make_update_policy(settings.policy, {.threshold = settings.threshold})),
       sweep_(settings.sweep_ticks, settings.tick_s),
-      ambassador_(fom, *this),
+      ambassador_(fom, *this, timeouts_of(settings)),
       seats_(game_.player_count()),
       keys_(game_.player_count(), settings.key_limit_per_s, settings.push_limit_per_s),
       turns_({.tick_s = settings.tick_s,

@@ -39,6 +39,7 @@ double Server::simulated_at_clock(double now) const {
 double Server::follow_match(double real_s) {
   assert(hosted_);
   if (shared_) hosted_->follow(shared_->match()->state());
+  now_();  // so that a standstill is noticed first
   if (hosted_->advance(real_s)) {
     finish_record();  // of one that was given up
     keys_.begin();

@@ -26,6 +26,13 @@ std::chrono::nanoseconds nanoseconds(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
 
+/// Players of matches are to notice soon that their host is silent (HostLink).
+rti::FederationSettings match_federation(const ServerSettings& server,
+                                         rti::FederationSettings settings) {
+  if (server.hosting) settings.timeouts.heartbeat_s = 0.2;
+  return settings;
+}
+
 /// Adds the time since it was made or last read to a sum.
 class Stopwatch {
  public:
@@ -46,7 +53,7 @@ class Stopwatch {
 Serving::Serving(const rti::Fom& fom, const Scene& scene, const ServerSettings& server,
                  const rti::FederationSettings& federation, Clocks clocks)
     : now_s_(std::move(clocks.now_s)),
-      execution_(fom, federation),
+      execution_(fom, match_federation(server, federation)),
       host_(execution_),
       server_(fom, scene, server, std::move(clocks.simulated_now)),
       link_(server_.ambassador(), endpoint_, (hub_.listen("rti"), endpoint_.connect("rti"))),

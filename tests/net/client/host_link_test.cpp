@@ -179,6 +179,47 @@ TEST(AHostLink, SaysThatAHostIsGoneOrSilent) {
   }
 }
 
+/// The host of these tests beats once a second, and says nothing else that is not asked.
+TEST(AHostLink, SaysForHowLongItsHostIsSilent) {
+  rti::InProcessNetwork network;
+  Host host(network, true);
+  Visitor visitor(network);
+  play(host, visitor, 0, 20);
+  EXPECT_FALSE(visitor.link.is_interrupted());
+  EXPECT_LE(visitor.link.silent_s(), 4 * way_s);
+  const double from_s = 2 * 19 * way_s;
+  double now_s = from_s;
+  for (; !visitor.link.is_interrupted() && now_s < from_s + 3.0; now_s += way_s)
+    visitor.exchange(now_s);
+  EXPECT_NEAR(now_s - from_s, interrupted_after_s, 3 * way_s);
+  host.play(now_s + way_s + ahead_s);
+  visitor.exchange(now_s + 2 * way_s);
+  EXPECT_FALSE(visitor.link.is_interrupted());
+  EXPECT_EQ(visitor.link.silent_s(), 0.0);
+}
+
+/// Its own process stood still: what came meanwhile is read before the silence is counted.
+TEST(AHostLink, TakesItsOwnStandstillForNoSilenceOfTheHost) {
+  rti::InProcessNetwork network;
+  Host host(network, true);
+  Visitor visitor(network);
+  play(host, visitor, 0, 20);
+  visitor.exchange(100.0);
+  EXPECT_FALSE(visitor.link.is_interrupted());
+}
+
+TEST(AHostLink, GivesUpAHostThatAcceptsAndSaysNothing) {
+  rti::InProcessNetwork network;
+  rti::InProcessEndpoint mute(network);
+  mute.listen("mute");
+  Visitor visitor(network, "guest", "mute");
+  double now_s = 0.0;
+  for (; !visitor.link.is_lost() && now_s < 20.0; now_s += way_s) visitor.exchange(now_s);
+  EXPECT_NEAR(now_s, 5.0, 3 * way_s);
+  EXPECT_EQ(visitor.link.error(),
+            "no answer from the host: it accepts the connection, but says nothing");
+}
+
 TEST(AHostLink, KeepsTheFirstReasonThatItIsGiven) {
   rti::InProcessNetwork network;
   Host host(network, true);

@@ -50,6 +50,33 @@ TEST(AHostedMatch, GoesOnFromWhereAGameThatHasTooMuchToDoHasCome) {
   EXPECT_EQ(evening.game.now(), last_on(tick_grid, 1.25));
 }
 
+TEST(AHostedMatch, LeavesOutTheTimeInWhichItsHostStoodStill) {
+  Evening evening;
+  evening.match.pass(4.75);
+  evening.follow(4.75);
+  const double played = evening.game.now();
+  evening.match.pass(14.75);  // nothing was done for ten seconds
+  EXPECT_EQ(evening.match.simulated(14.75), 0.75) << "also of a key that comes first";
+  evening.follow(14.75);
+  EXPECT_EQ(evening.match.state().phase, MatchPhase::countdown);
+  EXPECT_EQ(evening.game.now(), played);
+  for (double now_s = 15.0; now_s <= 18.75; now_s += 0.25) {
+    evening.match.pass(now_s);
+    evening.follow(now_s);
+  }
+  EXPECT_EQ(evening.game.now(), last_on(tick_grid, 1.75));
+}
+
+TEST(AHostedMatch, PlaysOnThroughASecondInWhichNothingWasDone) {
+  Evening evening;
+  evening.match.pass(4.75);
+  evening.follow(4.75);
+  evening.match.pass(4.75 + HostedMatch::stood_still_s);
+  evening.follow(4.75 + HostedMatch::stood_still_s);
+  EXPECT_EQ(evening.match.state().phase, MatchPhase::playing);
+  EXPECT_EQ(evening.game.now(), last_on(tick_grid, 1.75));
+}
+
 TEST(AHostedMatch, FeelsKeysFromTheCountdownOn) {
   const Evening evening;
   EXPECT_TRUE(evening.match.are_keys_felt());
