@@ -99,6 +99,12 @@ void add_options(game::Flags& flags, PlayOptions& options) {
                   "host a match on PORT of every address of this machine (0.0.0.0), and play it")
           .value_name("PORT")
           .check(game::whole_number_from(1, 65535));
+  flags
+      .option("--continue", options.continued,
+              "with --host: go on with the match of this record, which was not played to its end")
+      .needs(host)
+      .value_name("FILE")
+      .check(existing_file());
   const auto join =
       flags.option("--join", options.join, "join the match at HOST:PORT").value_name("HOST:PORT");
   const auto watch = flags

@@ -21,7 +21,7 @@ struct PlayOptions {
   std::string camera, control;
   std::string size = "1280x720";
   bool is_full_screen = false, is_muted = false, shows_figures = false;
-  std::string settings_file, key_file;
+  std::string settings_file, key_file, continued;
   std::uint64_t seed = 1;
   bool is_offscreen = false;
   std::string script, screenshot;

@@ -13,12 +13,13 @@
 #include <utility>
 
 #include "game/apps/command.h"
+#include "game/control/begun_match.h"
 #include "game/control/match_flow.h"
 #include "game/control/match_records.h"
 #include "game/match/local_match.h"
 #include "game/match/replay_match.h"
 #include "game/model/scene_file.h"
-#include "game/net/client/joined_match.h"
+#include "game/net/client/returning_match.h"
 #include "game/net/peer/network/listening_place.h"
 #include "game/net/peer/playing_peer.h"
 #include "game/view/host_process.h"
@@ -104,17 +105,51 @@ class RecordedMatch final : public MatchWithin<game::LocalMatch> {
   game::MatchRecords records_;
 };
 
+/// The server of a match that is hosted here. One that was killed is started again, and its match
+/// goes on from its record.
+class MatchServer {
+ public:
+  explicit MatchServer(const HostSettings& settings) : settings_(settings) { start(); }
+  void attend() {
+    std::cerr << server_->take_words();
+    if (server_->has_ended() && starts_left_ > 0) start_again();
+  }
+
+ private:
+  void start() {
+    started_ = std::filesystem::file_time_type::clock::now();
+    server_ = std::make_unique<HostProcess>(settings_);
+  }
+  void start_again() {
+    --starts_left_;
+    const auto record = game::newest_record(settings_.records, started_);
+    if (record) settings_.continued = record->string();
+    game::complain("the match's server has ended; it is started again" +
+                   (record ? ", from " + record->string() : std::string()));
+    try {
+      start();
+    } catch (const std::exception& error) {
+      game::complain(error.what());
+    }
+  }
+
+  HostSettings settings_;
+  std::filesystem::file_time_type started_;
+  std::unique_ptr<HostProcess> server_;
+  int starts_left_ = 5;  ///< for a match that cannot be played must end
+};
+
 /// A match that is hosted and played here: the server, as the first base, starts before the
 /// connection to it, and ends after it.
-class HostedMatch final : private HostProcess, public MatchWithin<game::JoinedMatch> {
+class HostedMatch final : private MatchServer, public MatchWithin<game::ReturningMatch> {
  public:
-  HostedMatch(const std::string& scene, const std::string& port, const std::string& records,
-              const std::string& key_file)
-      : HostProcess({.scene = scene, .port = port, .records = records, .key_file = key_file}),
-        MatchWithin("127.0.0.1:" + port, game::NetworkMatchSettings{.name = "host"}, key_file) {}
+  explicit HostedMatch(const HostSettings& settings)
+      : MatchServer(settings),
+        MatchWithin("127.0.0.1:" + settings.port, game::NetworkMatchSettings{.name = "host"},
+                    settings.key_file) {}
   void advance(double now_s) override {
     MatchWithin::advance(now_s);
-    std::cerr << take_words();
+    attend();
   }
 };
 
@@ -196,15 +231,18 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const PlayO
   const std::string records = records_folder(options);
   if (wish.kind == Kind::host) {
     match_scene(options.sharing.scene);
-    return std::make_unique<HostedMatch>(options.sharing.scene, wish.address, host_records(records),
-                                         options.key_file);
+    return std::make_unique<HostedMatch>(HostSettings{.scene = options.sharing.scene,
+                                                      .port = wish.address,
+                                                      .records = host_records(records),
+                                                      .key_file = options.key_file,
+                                                      .continued = options.continued});
   }
   if (wish.kind == Kind::join)
-    return std::make_unique<game::JoinedMatch>(
+    return std::make_unique<game::ReturningMatch>(
         wish.address, game::NetworkMatchSettings{.name = "player-" + std::to_string(getpid())},
         options.key_file);
   if (wish.kind == Kind::watch)
-    return std::make_unique<game::JoinedMatch>(
+    return std::make_unique<game::ReturningMatch>(
         wish.address,
         game::NetworkMatchSettings{.name = "watcher-" + std::to_string(getpid()),
                                    .only_watches = true},

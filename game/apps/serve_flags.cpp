@@ -52,6 +52,12 @@ void add_options(Flags& flags, ServeOptions& options) {
           "how long a hosted match waits for a player that has left, and nodes keep its bat [s]")
       .check(number_from(0.0, 3600.0))
       .shows_default();
+  flags
+      .option("--continue", options.continued,
+              "record of a hosted match that was not played to its end: score, time and places are "
+              "as at its end once both players are here")
+      .value_name("FILE")
+      .check(existing_file());
   flags.option("--scene", options.scene, "preset (match, paper, crowd) or TOML file")
       .shows_default();
   flags

@@ -163,6 +163,11 @@ void MatchFlow::stand_still(double from_s, double now_s) {
   if constexpr (checks_whole_structures) check();
 }
 
+void MatchFlow::begin_at(double simulated_s) {
+  assert(state_.phase == MatchPhase::countdown && state_.clock_simulated_s == 0.0);
+  state_.clock_simulated_s = simulated_s;
+}
+
 void MatchFlow::win(Team winner, double now_s) {
   assert(winner != Team::none);
   assert((state_.phase == MatchPhase::playing || state_.phase == MatchPhase::countdown ||

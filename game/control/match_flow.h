@@ -91,6 +91,8 @@ class MatchFlow {
   /// The host itself stood still from `from_s` to `now_s`, both real time [s]: nothing of that
   /// counts. A match that was played goes on after a countdown.
   void stand_still(double from_s, double now_s);
+  /// The match that was just begun goes on from `simulated_s` [s], as one that was played before.
+  void begin_at(double simulated_s);
   /// `winner`, a team that has an end, has scored the last goal of the game.
   void win(Team winner, double now_s);
 

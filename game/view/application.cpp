@@ -65,12 +65,12 @@ void Application::play(const MatchWish& wish) {
     start(wish);
     menu_.open(Menu::Screen::none);
   } catch (const std::exception& error) {
-    explain(error.what());
+    explain(error.what(), wish);
   }
 }
 
-void Application::explain(const std::string& error) {
-  menu_.explain(error);
+void Application::explain(const std::string& error, const std::optional<MatchWish>& again) {
+  menu_.explain(error, again);
   if (surroundings_.notify) surroundings_.notify(error);
 }
 
@@ -124,8 +124,9 @@ void Application::follow_phase() {
   }
   if (sight.phase == Phase::lost) {
     const std::string why = sight.notice;
+    const MatchWish again = wish_;
     start({.kind = MatchWish::Kind::bots, .address = {}});
-    return explain("The match cannot go on: " + why);
+    return explain("The match cannot go on: " + why, again);
   }
   if (sight.phase == Phase::over && menu_.screen() == Menu::Screen::none &&
       match_->hand_count() > 0)

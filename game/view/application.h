@@ -43,8 +43,8 @@ class Application {
   /// Starts a match instead of showing the menu; once it ends the menu is shown, with an error if
   /// there was one.
   void play(const MatchWish& wish);
-  /// Shows an error in the menu and reports it.
-  void explain(const std::string& error);
+  /// Shows an error in the menu, which offers to try `again`, and reports it.
+  void explain(const std::string& error, const std::optional<MatchWish>& again = std::nullopt);
   void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
 
   void show_figures() { figures_.are_shown = true; }

@@ -35,9 +35,10 @@ void Menu::open(Screen screen) {
   binding_.reset();
 }
 
-void Menu::explain(const std::string& error) {
+void Menu::explain(const std::string& error, const std::optional<MatchWish>& again) {
   open(Screen::main);
   error_ = error;
+  again_ = again;
 }
 
 bool Menu::take_key(KeyCode code, Settings& settings, MenuWish& wish) {
@@ -155,6 +156,7 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
 
 void Menu::draw_main(MenuWish& wish) {
   begin_panel("main", 470.0f, 0.60f);
+  if (!error_.empty() && again_ && button("Try again")) wish = {MenuWish::Kind::play, *again_};
   if (button("Two players"))
     wish = {MenuWish::Kind::play, {.kind = MatchWish::Kind::two, .address = {}}};
   if (button("Against a bot")) open(Screen::bot);

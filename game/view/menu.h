@@ -61,8 +61,8 @@ class Menu {
   /// keys would be lost.
   bool is_ready() const { return drawn_ >= 2; }
   void open(Screen screen);
-  /// Returns to the main menu with an error.
-  void explain(const std::string& error);
+  /// Returns to the main menu with an error, and offers to try `again` what failed, if anything.
+  void explain(const std::string& error, const std::optional<MatchWish>& again = std::nullopt);
   /// The error there, shown until something is chosen.
   const std::string& error() const { return error_; }
 
@@ -94,6 +94,7 @@ class Menu {
 
   Screen screen_ = Screen::main, back_ = Screen::main, help_back_ = Screen::main;
   std::string error_;
+  std::optional<MatchWish> again_;  ///< while the error is shown
   std::string address_ = "127.0.0.1:4711", port_ = "4711";
   std::optional<Binding> binding_;
   bool is_fresh_ = true;  ///< the first widget of this screen is to have the focus

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "game/net/client/network_match.h"
+#include "rti/refusal_words.h"
 #include "rti/transport/tcp/tcp.h"
 #include "rti/wire/membership_messages.h"
 #include "rti/wire/message.h"
@@ -79,13 +80,12 @@ Outcome joining(FalseHost& host, double patience_s) {
 }
 
 TEST(AHostThatIsNone, OfAnotherVersionIsNamedSo) {
-  FalseHost host(
-      frame_of(rti::RefusedMessage{static_cast<std::uint8_t>(rti::Refusal::wrong_version),
-                                   to_string(rti::Refusal::wrong_version)}));
+  FalseHost host(frame_of(rti::RefusedMessage{
+      static_cast<std::uint8_t>(rti::Refusal::wrong_version), rti::refused_version(12, 11)}));
   const Outcome outcome = joining(host, 3.0);
   EXPECT_EQ(outcome.phase, MatchPhase::lost);
-  EXPECT_THAT(outcome.notice, HasSubstr("the host refuses: "));
-  EXPECT_THAT(outcome.notice, HasSubstr(to_string(rti::Refusal::wrong_version)));
+  EXPECT_THAT(outcome.notice, HasSubstr("this Rink and the host's are of different versions"));
+  EXPECT_THAT(outcome.notice, HasSubstr("the federate speaks version 12, the RTI version 11"));
 }
 
 TEST(AHostThatIsNone, ThatNeverAnswersIsGivenUpAfterFiveSeconds) {

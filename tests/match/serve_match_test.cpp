@@ -69,7 +69,7 @@ TEST_F(AHost, ThatIsKilledIsMissedByItsPlayersAtOnce) {
   ASSERT_FALSE(duel.ending()) << duel.stderr_tail();
   host.reset();
   EXPECT_EQ(status_of(duel, 3s), 16) << duel.stderr_tail();
-  EXPECT_THAT(duel.stderr_tail(), HasSubstr("closed by peer"));
+  EXPECT_THAT(duel.stderr_tail(), HasSubstr("the host has ended or left"));
 }
 
 TEST_F(AHost, ThatIsKilledLeavesTheRecordOfAllButTheLastSecond) {

@@ -252,10 +252,11 @@ TEST_F(GoldenImages, GoBackToTheMenuWhenTheConnectionIsLost) {
   sight.phase = Phase::lost;
   sight.notice = "the host is gone";
   std::string told;
-  int made = 0;
+  int made = 0, joins = 0;
   application_ = std::make_unique<Application>(
       Surroundings{.make_match =
-                       [&](const MatchWish&) {
+                       [&](const MatchWish& wish) {
+                         joins += wish.kind == MatchWish::Kind::join;
                          return std::make_unique<StillMatch>(made++ == 0 ? match_sight() : sight);
                        },
                    .notify = [&](const std::string& words) { told = words; }},
@@ -265,6 +266,8 @@ TEST_F(GoldenImages, GoBackToTheMenuWhenTheConnectionIsLost) {
   EXPECT_TRUE(application_->is_in_menu());
   EXPECT_EQ(told, "The match cannot go on: the host is gone");
   expect_golden("lost");
+  tap("enter");  // Try again
+  EXPECT_EQ(joins, 2);
 }
 
 }  // namespace

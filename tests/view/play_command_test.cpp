@@ -365,7 +365,7 @@ class PlayCommandLong : public PlayCommand {};
 
 TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
   const test::ReservedPort port;
-  std::ofstream(file("joining")) << "4.8 picture joined.png\n9 end\n";
+  std::ofstream(file("joining")) << "4.8 picture joined.png\n40 end\n";
   const std::string joining =
       "cd " + folder_.path().string() + " && (sleep 1; " + test::binary_folder() +
       "/bin/rink-play --offscreen --size 640x360 --join 127.0.0.1:" + port.text() +
@@ -373,7 +373,7 @@ TEST_F(PlayCommandLong, TwoWindowsPlayOneMatchUntilTheHostVanishes) {
   ASSERT_EQ(std::system(joining.c_str()), 0);
   ASSERT_EQ(play("--host " + port.text() + " --records kept", "5.8 picture hosted.png\n7 end\n"), 0)
       << said_;
-  for (int i = 0; i < 200 && !std::filesystem::exists(file("joined_status")); ++i)
+  for (int i = 0; i < 600 && !std::filesystem::exists(file("joined_status")); ++i)  // it waits 30 s
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_THAT(test::text_of(file("joined_err")), HasSubstr("The match cannot go on"));
   EXPECT_TRUE(std::filesystem::exists(file("kept/match-1.keys")));

@@ -4,6 +4,25 @@
 namespace rink::game {
 namespace {
 
+/// Why the connection ended, as a player would say it.
+std::string words_of(rti::CloseReason reason) {
+  using enum rti::CloseReason;
+  if (reason == closed_by_peer) return "the host has ended or left";
+  if (reason == queue_full) return "the network is too slow for this match";
+  if (reason == too_fast) return "the host was sent more than it allows";
+  if (reason == too_many) return "too many have joined from this address";
+  return "the network connection is broken";
+}
+
+/// `why` names the versions of both ends as the RTI does.
+std::string words_of(rti::Refusal refusal, const std::string& why) {
+  if (refusal == rti::Refusal::wrong_version || refusal == rti::Refusal::wrong_fom)
+    return "this Rink and the host's are of different versions, and play together only if they are "
+           "of one: " +
+           why;
+  return "the host refuses: " + why;
+}
+
 constexpr double match_patience_s = 3.0;  ///< for the state of a match, once joined
 constexpr double join_patience_s = 5.0;   ///< for the first word
 
@@ -51,14 +70,16 @@ void HostLink::listen(double now_s) {
 }
 
 void HostLink::look_for_errors(double now_s) {
-  const bool is_refused = client_.state() == Client::State::refused;
-  const std::string beginning = joined_s_    ? ""
-                                : is_refused ? "the host refuses: "
-                                             : "no answer from the host: ";
-  if (is_refused || client_.state() == Client::State::lost)
-    lose(beginning + client_.joining().error());
-  else if (link_.is_finished())
-    lose(beginning + "the connection is closed: " + rti::to_string(link_.close_reason()));
+  const Joining& joining = client_.joining();
+  const std::string beginning = joined_s_ ? "" : "no answer from the host: ";
+  if (client_.state() == Client::State::refused)
+    lose(joining.refusal() ? words_of(*joining.refusal(), joining.error())
+                           : "the match is full: " + joining.error());
+  else if (link_.is_finished() && joined_s_ &&
+           link_.close_reason() != rti::CloseReason::closed_by_us)
+    lose(words_of(link_.close_reason()));
+  else if (client_.state() == Client::State::lost) lose(beginning + joining.error());
+  else if (link_.is_finished()) lose(beginning + words_of(link_.close_reason()));
   else if (!joined_s_ && now_s > *begun_s_ + join_patience_s)
     lose(beginning + "it accepts the connection, but says nothing");
   else if (is_player_ && joined_s_ && now_s > *joined_s_ + match_patience_s &&

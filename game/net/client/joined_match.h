@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "game/match/match_source.h"
@@ -36,6 +37,13 @@ class JoinedMatch final : public MatchSource {
   void pause(bool is_wanted) override { match_.pause(is_wanted); }
   void rematch() override { match_.rematch(); }
   void inspect(std::uint32_t thing) override { match_.inspect(thing); }
+  /// It is received, not only reached.
+  bool is_in_match() const {
+    return match_.sight().phase != MatchPhase::lost &&
+           match_.client().state() == Client::State::playing;
+  }
+  /// See NetworkMatch::player().
+  std::optional<std::uint32_t> player() const { return match_.player(); }
 
  private:
   static rti::ConnectionId connect(rti::TcpTransport& transport, const std::string& place);

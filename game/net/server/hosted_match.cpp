@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "game/control/begun_match.h"
 #include "game/control/replay.h"
 #include "game/model/time_grid.h"
 
@@ -30,7 +31,12 @@ Game HostedMatch::begin(const Game& last) {
   is_recorded_ = false;
   number_ = present().number;
   earlier_s_ += last.now();
-  return Game(scene_);
+  if (!hosting_.begun || led_) return Game(scene_);
+  BegunMatch begun =
+      begun_match(*std::exchange(hosting_.begun, std::nullopt), scene_, "the record");
+  begun_events_ = std::move(begun.events);
+  flow_.begin_at(begun.game.now());
+  return std::move(begun.game);
 }
 
 double HostedMatch::goal(double now_s, double played) const {

@@ -20,6 +20,8 @@ struct Hosting {
   FlowTimes times;
   std::string scene_text;  ///< the scene's file, which players predict from and records include; at
                            ///< most SceneText::size_max bytes
+  std::optional<KeyLog> begun{};  ///< the record that the first match goes on from; there must be
+                                  ///< no objection to it by begun_match()
 };
 
 /// Reads no clock: `now_s` is real time [s], which never falls. Its owner has the game, which is
@@ -51,6 +53,8 @@ class HostedMatch {
   bool advance(double now_s);
   /// The game of the next match; `last` is that of the one before.
   Game begin(const Game& last);
+  /// What led to the game that was begun last, once: nothing unless that goes on from a record.
+  std::vector<InputEvent> take_begun() { return std::exchange(begun_events_, {}); }
   /// The time to which the game, now at `played` [s], must be simulated.
   double goal(double now_s, double played) const;
   /// At `now_s` the game has come no further than `played` [s]: it goes on from there.
@@ -91,6 +95,7 @@ class HostedMatch {
   std::uint32_t number_ = 0;        ///< of the match that was begun last
   double earlier_s_ = 0.0;
   std::vector<KeyLog> finished_;
+  std::vector<InputEvent> begun_events_;
   bool is_recorded_ = false;  ///< the present match
   std::optional<EndingPossession> ending_possession_;
   bool is_unrecorded_ = false;  ///< the last match could not be recorded

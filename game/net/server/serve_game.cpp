@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "game/control/begun_match.h"
 #include "game/control/game_state.h"
 #include "game/control/key_log_file.h"
 #include "game/control/replay.h"
@@ -31,10 +32,23 @@ ServedGame served_game(const ServeOptions& options) {
   return played;
 }
 
+namespace {
+
+/// Checked before anybody joins.
+std::optional<KeyLog> begun_log(const ServeOptions& options) {
+  if (options.continued.empty()) return std::nullopt;
+  KeyLog log = read_key_log(options.continued);
+  begun_match(log, load_scene(options.scene), options.continued);
+  return log;
+}
+
+}  // namespace
+
 std::optional<Hosting> hosting_of(const ServeOptions& options) {
   if (options.hosted.empty()) return std::nullopt;
   return Hosting{.times = {.countdown_s = options.countdown_s, .patience_s = options.absence_s},
-                 .scene_text = scene_text(options.scene)};
+                 .scene_text = scene_text(options.scene),
+                 .begun = begun_log(options)};
 }
 
 KeyLog record_of(const ServedGame& played, const Server& server) {

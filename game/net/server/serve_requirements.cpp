@@ -122,6 +122,14 @@ void require_beginning(const ServeOptions& options) {
         "with the scene and can't be given with it");
 }
 
+/// Throws if no match of this server alone can go on from a record.
+void require_continued(const ServeOptions& options) {
+  if (options.continued.empty() || (!options.hosted.empty() && !is_node(options))) return;
+  throw std::runtime_error(
+      "--continue: only a match that one server hosts goes on from a record: expected a scene to "
+      "host, as in rink serve match, and no --nodes, --join or --transport mpi");
+}
+
 }  // namespace
 
 bool needs_every_tick(const ServeOptions& options) {
@@ -175,6 +183,7 @@ void require_room(const ServeOptions& options, const Scene& scene) {
   require_cells(options);
   require_always(options);
   require_beginning(options);
+  require_continued(options);
   require_node(options);
   require_exact(options, scene);
   require_output_rate(options);

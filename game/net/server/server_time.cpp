@@ -45,6 +45,7 @@ double Server::follow_match(double real_s) {
     keys_.begin();
     publisher_->retire_all();
     game_ = hosted_->begin(game_);
+    for (const InputEvent& event : hosted_->take_begun()) keys_.record(event);
     budget_.begin();
   }
   if (hosted_->is_over() && (!shared_ || shared_->has_shown_all())) finish_record();
