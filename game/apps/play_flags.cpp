@@ -5,6 +5,7 @@
 
 #include "game/net/limits.h"
 #include "game/net/peer/interest/viewing_options.h"
+#include "game/view/film/picture_sequence.h"
 
 namespace rink::view {
 using game::existing_file, game::one_of, game::whole_number_from;
@@ -164,6 +165,23 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .option("--settings", options.settings_file,
               "file of the settings (default: rink/play.toml in $XDG_CONFIG_HOME or ~/.config)")
       .value_name("FILE");
+  const auto pictures =
+      flags
+          .option("--pictures", options.pictures,
+                  "with --replay: write the match as pictures frame-000001.png and so on into this "
+                  "new or empty folder, without a window, and end")
+          .needs(replay)
+          .value_name("FOLDER");
+  flags.option("--picture-rate", options.picture_rate, "pictures for each second of the match")
+      .needs(pictures)
+      .check(game::number_from(0.1, film_frames_per_s_max))
+      .shows_default();
+  flags
+      .option("--frame-limit", options.frame_limit,
+              "pictures a second that the window draws at most, where the screen does not limit "
+              "them; a menu that nobody touches for 5 s draws one")
+      .check(game::number_from(10.0, 1000.0))
+      .shows_default();
   flags.option("--seed", options.seed, "seed of the bots").shows_default();
   flags
       .option(

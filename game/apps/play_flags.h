@@ -10,6 +10,7 @@
 #include "game/net/peer/playing_peer.h"
 #include "game/view/menu.h"
 #include "game/view/picture_of.h"
+#include "game/view/window/frame_pace.h"
 
 namespace rink::view {
 
@@ -21,11 +22,11 @@ struct PlayOptions {
   std::string camera, control;
   std::string size = "1280x720";
   bool is_full_screen = false, is_muted = false, shows_figures = false;
-  std::string settings_file, key_file, continued;
+  std::string settings_file, key_file, continued, pictures;
   std::uint64_t seed = 1;
   bool is_offscreen = false;
   std::string script, screenshot;
-  double at_s = 0.0;
+  double at_s = 0.0, picture_rate = 60.0, frame_limit = FramePace::limit_default;
   std::set<std::string> given{};  ///< the flags that were given
 };
 

@@ -1,4 +1,5 @@
 // rink play: the window, its clock, and the matches that the player starts.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "game/version/version.h"
 #include "game/view/application.h"
 #include "game/view/feel/less_motion.h"
+#include "game/view/film/picture_sequence.h"
 #include "game/view/render/image_file.h"
 #include "game/view/render/offscreen.h"
 #include "game/view/script.h"
@@ -24,9 +26,7 @@ namespace {
 using namespace rink;
 using view::MatchWish;
 
-constexpr double offscreen_frame_s = 1.0 / 60.0,
-                 shortest_frame_s =
-                     1.0 / 250.0;  // the latter where the driver does not wait for the screen
+constexpr double offscreen_frame_s = 1.0 / 60.0;
 
 using game::now_s;
 
@@ -87,6 +87,8 @@ class Process {
     view::write_png(file, view::read_pixels(framebuffer, size.width, size.height));
   }
   void draw(const view::WindowSize& size, GLuint framebuffer, double now, bool is_seen);
+  void listen(view::Window& window);
+  void await_frame(view::Window& window, double begin_s);
   void save(const view::Settings& settings);
   void remember(const view::Settings& settings);
 
@@ -98,6 +100,7 @@ class Process {
   view::Settings shown_;     ///< those that were saved last, under the flags
   std::vector<view::ScriptStep> script_;
   std::size_t next_step_ = 0;
+  view::FramePace pace_{options_.frame_limit};
   std::unique_ptr<view::Sounds> sounds_;
   std::unique_ptr<view::Interface> interface_;
   std::unique_ptr<view::Renderer> renderer_;
@@ -158,15 +161,37 @@ void Process::run_in_window() {
   run_in_window({settings_.window.width, settings_.window.height, 1.0});
 }
 
+void Process::listen(view::Window& window) {
+  for (const view::WindowEvent& event : window.events()) {
+    application_->receive(event);
+    pace_.touched(now_s());
+  }
+}
+
+/// A menu that rests listens all the same, and draws as soon as it is touched.
+void Process::await_frame(view::Window& window, double begin_s) {
+  const bool is_in_menu = application_->is_in_menu(), rests = pace_.rests(is_in_menu, begin_s),
+             is_scripted = next_step_ < script_.size();
+  const double due_s = pace_.due_s(is_in_menu && !is_scripted, begin_s);
+  for (double left_s = due_s - now_s(); left_s > 0.0; left_s = due_s - now_s()) {
+    const double nap_s = rests ? std::min(left_s, view::FramePace::listening_period_s) : left_s;
+    std::this_thread::sleep_for(std::chrono::duration<double>(nap_s));
+    if (!rests) continue;
+    listen(window);
+    if (!pace_.rests(is_in_menu, begin_s) || game::is_interrupted) return;
+  }
+}
+
 /// At one instant keys come first, then the frame, then its picture.
 void Process::run_in_window(const view::WindowSize& size) {
   view::Window window("Rink", size.width, size.height, settings_.is_full_screen);
   const Opened opened(*this, &window);
   const double start_s = now_s();
+  pace_.touched(start_s);
   bool is_ended = false;
   while (!application_->wants_to_quit() && !is_ended && !game::is_interrupted) {
     const double begin_s = now_s();
-    for (const view::WindowEvent& event : window.events()) application_->receive(event);
+    listen(window);
     const auto due = view::due_steps(script_, next_step_, begin_s - start_s);
     for (const view::ScriptStep& step : due)
       for (const view::WindowEvent& event : step.events) application_->receive(event);
@@ -182,8 +207,7 @@ void Process::run_in_window(const view::WindowSize& size) {
     }
     for (const view::ScriptStep& step : due) is_ended = is_ended || step.is_end;
     window.show();
-    const double left_s = shortest_frame_s - (now_s() - begin_s);
-    if (left_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+    await_frame(window, begin_s);
   }
   if (options_.given.count("--size") == 0 && application_->settings().window != settings_.window)
     remember(application_->settings());
@@ -230,6 +254,27 @@ void Process::close() {
   sounds_.reset();
 }
 
+/// As the settings and --camera would show the replay.
+game::ExitStatus film(const view::PlayOptions& options, const view::WindowSize& size) {
+  const view::Settings settings =
+      view::read_settings(options.settings_file.empty() ? view::settings_file()
+                                                        : options.settings_file)
+          .settings;
+  const auto camera = view::viewpoint_of(options);
+  const view::OffscreenContext context;
+  const std::size_t count = view::write_pictures(
+      {.record = options.replay,
+       .folder = options.pictures,
+       .frames_per_s = options.picture_rate,
+       .size = size,
+       .view = {.viewpoint = camera.value_or(view::Viewpoint::side),
+                .palette = settings.palette,
+                .has_effects = settings.has_effects && !settings.has_less_motion}});
+  std::printf("%zu pictures, %g for each second of the match, in %s\n", count, options.picture_rate,
+              options.pictures.c_str());
+  return game::is_interrupted ? game::ExitStatus::interrupted : game::ExitStatus::ok;
+}
+
 game::ExitStatus play(const view::PlayOptions& options) {
   const auto size = view::size_of(options.size);
   if (!size)
@@ -238,6 +283,7 @@ game::ExitStatus play(const view::PlayOptions& options) {
   if (options.is_offscreen && options.script.empty() && options.screenshot.empty())
     throw game::FlagError("--offscreen",
                           "nobody could see it or press a key; give a --script or a --screenshot");
+  if (!options.pictures.empty()) return film(options, *size);
   Process process(options);
   if (options.is_offscreen) process.run_offscreen(*size);
   else if (options.given.count("--size") != 0) process.run_in_window(*size);

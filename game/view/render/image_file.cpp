@@ -4,11 +4,13 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -40,9 +42,13 @@ void write_png(const std::string& file, const Image& image) {
   const bool is_coded =
       stbi_write_png_to_func(keep, &png, image.width, image.height, image.channels,
                              image.pixels.data(), image.width * image.channels) != 0;
+  errno = 0;
   std::ofstream stream(file, std::ios::binary);
-  if (!is_coded || !(stream << png << std::flush))
-    throw std::runtime_error("cannot write the image '" + file + "'");
+  if (is_coded && stream << png << std::flush) return;
+  const int error = is_coded ? errno : ENOMEM;
+  throw std::runtime_error(
+      "cannot write the image '" + file +
+      "': " + (error != 0 ? std::generic_category().message(error) : "unknown reason"));
 }
 
 Image read_png(const std::string& file) {
