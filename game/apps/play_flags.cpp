@@ -165,6 +165,9 @@ void add_options(game::Flags& flags, PlayOptions& options) {
       .option("--settings", options.settings_file,
               "file of the settings (default: rink/play.toml in $XDG_CONFIG_HOME or ~/.config)")
       .value_name("FILE");
+  flags.flag("!--no-discovery", options.is_discovered,
+             "neither ask the local network for matches nor answer who asks it (setting "
+             "finds_matches)");
   const auto pictures =
       flags
           .option("--pictures", options.pictures,

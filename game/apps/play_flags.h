@@ -21,7 +21,7 @@ struct PlayOptions {
   game::PlayingPeerSettings sharing;
   std::string camera, control;
   std::string size = "1280x720";
-  bool is_full_screen = false, is_muted = false, shows_figures = false;
+  bool is_full_screen = false, is_muted = false, shows_figures = false, is_discovered = true;
   std::string settings_file, key_file, continued, pictures;
   std::uint64_t seed = 1;
   bool is_offscreen = false;

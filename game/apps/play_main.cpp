@@ -3,12 +3,14 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <random>
 #include <thread>
 #include <utility>
 
 #include "game/apps/command.h"
 #include "game/apps/play_flags.h"
 #include "game/apps/play_matches.h"
+#include "game/net/discovery/match_search.h"
 #include "game/net/exit_status.h"
 #include "game/net/interrupt.h"
 #include "game/version/version.h"
@@ -101,6 +103,7 @@ class Process {
   std::vector<view::ScriptStep> script_;
   std::size_t next_step_ = 0;
   view::FramePace pace_{options_.frame_limit};
+  std::unique_ptr<game::MatchSearch> search_;  ///< once somebody looked for a match
   std::unique_ptr<view::Sounds> sounds_;
   std::unique_ptr<view::Interface> interface_;
   std::unique_ptr<view::Renderer> renderer_;
@@ -114,6 +117,16 @@ void Process::open(view::Window* window) {
     return view::make_match(wish, options_);
   };
   surroundings.notify = notify;
+  if (options_.is_discovered)
+    surroundings.find_matches = [this] {
+      if (!search_)
+        search_ = std::make_unique<game::MatchSearch>(game::discovery_group(), [] {
+          std::random_device random;
+          return std::uint64_t{random()} << 32 | random();
+        });
+      search_->search(now_s());
+      return search_->found();
+    };
   surroundings.wants_less_motion = view::wants_less_motion(view::desktop_settings_folder());
   if (window != nullptr) {
     sounds_ = std::make_unique<view::Sounds>();

@@ -235,6 +235,7 @@ std::unique_ptr<game::MatchSource> make_match(const MatchWish& wish, const PlayO
                                                       .port = wish.address,
                                                       .records = host_records(records),
                                                       .key_file = options.key_file,
+                                                      .is_announced = options.is_discovered,
                                                       .continued = options.continued});
   }
   if (wish.kind == Kind::join)

@@ -53,6 +53,13 @@ void add_options(Flags& flags, ServeOptions& options) {
       .check(number_from(0.0, 3600.0))
       .shows_default();
   flags
+      .option("--name", options.name,
+              "name by which windows on the local network list a hosted match (default: that of "
+              "this machine)")
+      .check(not_empty());
+  flags.flag("!--no-discovery", options.is_announced,
+             "do not answer windows that ask the local network for matches");
+  flags
       .option("--continue", options.continued,
               "record of a hosted match that was not played to its end: score, time and places are "
               "as at its end once both players are here")

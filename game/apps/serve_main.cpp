@@ -1,5 +1,7 @@
 // rink serve: the server federate and, beside it, the RTI with its filter, on a real-time or
 // synchronous tick.
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <random>
 #include <string>
 #include <thread>
 
@@ -19,6 +22,7 @@
 #include "game/control/key_log_file.h"
 #include "game/model/report_fields.h"
 #include "game/net/address.h"
+#include "game/net/discovery/announcing.h"
 #include "game/net/exit_status.h"
 #include "game/net/fom_file.h"
 #include "game/net/interrupt.h"
@@ -198,6 +202,21 @@ std::string players_place(const ServeOptions& options, const Meeting& meeting, s
   return Place{is_everywhere && place ? place->address : options.address, port}.text();
 }
 
+/// Answers windows of the local network that look for a match; null where nobody is to be answered.
+std::unique_ptr<Announcing> announced(const ServeOptions& options, std::uint16_t port) {
+  if (options.hosted.empty() || !options.is_announced || is_node(options)) return nullptr;
+  char machine[256] = {};
+  ::gethostname(machine, sizeof machine - 1);
+  std::random_device random;
+  const std::string& at = options.address;
+  return std::make_unique<Announcing>(
+      AnnouncedMatch{.name = match_name(options.name.empty() ? machine : options.name),
+                     .host = std::uint64_t{random()} << 32 | random(),
+                     .port = port,
+                     .is_local_only = at.starts_with("127.") || at == "localhost" || at == "::1"},
+      discovery_group(), now_s);
+}
+
 ExitStatus serve(ServeOptions& options, RankCommand& command) {
   if (!options.status.empty()) return show_status(options);
   for (const std::string& file : options.plugins) load_plugin(file);
@@ -224,6 +243,7 @@ ExitStatus serve(ServeOptions& options, RankCommand& command) {
   std::printf("%slistening on %s:%u\n", rank.c_str(), options.address.c_str(),
               static_cast<unsigned>(port));
   std::fflush(stdout);
+  const std::unique_ptr<Announcing> announcing = announced(options, port);
   if (node) served_at = players_place(options, *meeting, port);
   process.try_records();
   const bool is_complete = process.start();

@@ -41,6 +41,7 @@ Text replay_line(const game::ReplayMatch& replay) {
 
 Application::Application(Surroundings surroundings, const Settings& settings)
     : surroundings_(std::move(surroundings)), settings_(settings) {
+  menu_.find_matches = surroundings_.find_matches;
   start({.kind = MatchWish::Kind::bots, .address = {}});
 }
 
@@ -64,6 +65,10 @@ void Application::play(const MatchWish& wish) {
   try {
     start(wish);
     menu_.open(Menu::Screen::none);
+    if (wish.kind == MatchWish::Kind::join || wish.kind == MatchWish::Kind::watch) {
+      remember_address(settings_, wish.address);
+      do_wish({MenuWish::Kind::settings_noted, {}});
+    }
   } catch (const std::exception& error) {
     explain(error.what(), wish);
   }

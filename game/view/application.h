@@ -31,6 +31,8 @@ struct Surroundings {
   std::function<void(bool)> set_full_screen{};
   std::function<void(const Settings&)> save_settings{};      ///< the player changed one
   std::function<void(const Settings&)> remember_settings{};  ///< they changed unasked
+  std::function<std::vector<game::FoundMatch>()>
+      find_matches{};  ///< on the local network; called while a player looks for one
   std::function<void(const std::vector<Noise>&, const Settings&)> sound{};
   std::function<void(const std::string&)> notify{};  ///< troubles, for the standard error
   bool wants_less_motion = false;                    ///< the desktop says so

@@ -31,6 +31,7 @@ std::vector<std::string> arguments_for(const HostSettings& settings) {
   std::vector<std::string> words{settings.scene, "--address", settings.address, "--port",
                                  settings.port,  "--record",  settings.records};
   if (!settings.key_file.empty()) words.insert(words.end(), {"--key-file", settings.key_file});
+  if (!settings.is_announced) words.emplace_back("--no-discovery");
   if (!settings.continued.empty()) words.insert(words.end(), {"--continue", settings.continued});
   words.insert(words.end(), settings.sharing.begin(), settings.sharing.end());
   return words;

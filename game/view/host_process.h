@@ -15,6 +15,7 @@ struct HostSettings {
   std::string port = "0";
   std::string records;                 ///< folder
   std::string key_file{};              ///< if any, only for players with the same key
+  bool is_announced = true;            ///< to the local network
   std::string continued{};             ///< the record that the match goes on from, if any
   std::vector<std::string> sharing{};  ///< flags of rink serve by which it is one of several nodes
 };

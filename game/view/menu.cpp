@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "game/view/first_minute.h"
@@ -129,13 +130,13 @@ MenuWish Menu::draw(const Interface& interface, Settings& settings, const MatchS
       draw_bot(wish);
       break;
     case Screen::host:
-      draw_address(wish, MatchWish::Kind::host, "Host a match", "port", "Host");
+      draw_address(wish, MatchWish::Kind::host, settings);
       break;
     case Screen::join:
-      draw_address(wish, MatchWish::Kind::join, "Join a match", "host:port", "Join");
+      draw_address(wish, MatchWish::Kind::join, settings);
       break;
     case Screen::watch:
-      draw_address(wish, MatchWish::Kind::watch, "Watch a match or a crowd", "host:port", "Watch");
+      draw_address(wish, MatchWish::Kind::watch, settings);
       break;
     case Screen::settings:
       draw_settings(settings, wish);
@@ -182,21 +183,52 @@ void Menu::draw_bot(MenuWish& wish) {
   ImGui::End();
 }
 
-void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint,
-                        const char* verb) {
+void Menu::draw_address(MenuWish& wish, MatchWish::Kind kind, const Settings& settings) {
+  const bool hosts = kind == MatchWish::Kind::host, joins = kind == MatchWish::Kind::join;
   begin_panel("address", 560.0f, 0.56f);
-  words_in_the_middle(title);
-  std::string& text = kind == MatchWish::Kind::host ? port_ : address_;
+  words_in_the_middle(hosts ? "Host a match" : joins ? "Join a match" : "Watch a match or a crowd");
+  std::string& text = hosts ? port_ : address_;
+  if (drawn_ == 1 && !hosts && !settings.addresses.empty()) text = settings.addresses.front();
   if (std::exchange(is_fresh_, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   const bool is_entered = ImGui::InputTextWithHint(
-      "##address", hint, &text,
+      "##address", hosts ? "port" : "host:port", &text,
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-  if (button(verb) || is_entered) wish = {MenuWish::Kind::play, {.kind = kind, .address = text}};
+  if (button(hosts ? "Host" : joins ? "Join" : "Watch") || is_entered)
+    wish = {MenuWish::Kind::play, {.kind = kind, .address = text}};
+  if (!hosts) draw_places(wish, kind, settings);
   ImGui::Separator();
   if (button("Back")) open(Screen::main);
   draw_error();
   ImGui::End();
+}
+
+/// Matches of the local network, then addresses that were joined before.
+void Menu::draw_places(MenuWish& wish, MatchWish::Kind kind, const Settings& settings) {
+  constexpr std::size_t found_most = 6;  // for which there is room
+  ImGui::PushFont(interface_->small_font());
+  const auto place_button = [&](const std::string& words, const std::string& place) {
+    if (button((words + "##" + place).c_str()))
+      wish = {MenuWish::Kind::play, {.kind = kind, .address = place}};
+  };
+  const bool searches = settings.finds_matches && find_matches;
+  std::vector<game::FoundMatch> found = searches ? find_matches() : std::vector<game::FoundMatch>();
+  if (found.size() > found_most) found.resize(found_most);
+  if (searches)
+    words_in_the_middle(found.empty() ? "No match on this network yet" : "On this network");
+  for (const game::FoundMatch& match : found)
+    place_button(match.name + "   " + match.place + "   " +
+                     (match.is_same_version
+                          ? std::to_string(std::max(1L, std::lround(1e3 * match.ping_s))) + " ms"
+                          : "another version"),
+                 match.place);
+  std::vector<std::string> before = settings.addresses;
+  std::erase_if(before, [&](const std::string& place) {
+    return std::ranges::find(found, place, &game::FoundMatch::place) != found.end();
+  });
+  if (!before.empty()) words_in_the_middle("Joined before");
+  for (const std::string& place : before) place_button(place, place);
+  ImGui::PopFont();
 }
 
 void Menu::draw_keys(Settings& settings) {
@@ -275,7 +307,9 @@ void Menu::draw_settings(Settings& settings, MenuWish& wish) {
   ImGui::SameLine();
   ImGui::Checkbox("Best of three", &settings.is_best_of_three);
   ImGui::SameLine();
-  if (ImGui::Button("Keys as they were")) settings.keys = default_keys();
+  ImGui::Checkbox("Find matches", &settings.finds_matches);
+  ImGui::SameLine();
+  if (ImGui::Button("Usual keys")) settings.keys = default_keys();
   ImGui::PopFont();
   if (button("Back")) open(back_);
   ImGui::End();

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "game/net/discovery/match_search.h"
 #include "game/view/interface.h"
 #include "game/view/match_source.h"
 #include "game/view/settings.h"
@@ -56,6 +58,9 @@ class Menu {
     help
   };
 
+  /// The matches of the local network, asked for while a player looks for one; may be empty.
+  std::function<std::vector<game::FoundMatch>()> find_matches{};
+
   Screen screen() const { return screen_; }
   /// True if the screen has been drawn often enough for its first button to have the focus: earlier
   /// keys would be lost.
@@ -81,8 +86,8 @@ class Menu {
   void begin_panel(const char* name, float width, float middle) const;
   void draw_main(MenuWish& wish);
   void draw_bot(MenuWish& wish);
-  void draw_address(MenuWish& wish, MatchWish::Kind kind, const char* title, const char* hint,
-                    const char* verb);
+  void draw_address(MenuWish& wish, MatchWish::Kind kind, const Settings& settings);
+  void draw_places(MenuWish& wish, MatchWish::Kind kind, const Settings& settings);
   void draw_settings(Settings& settings, MenuWish& wish);
   void draw_keys(Settings& settings);
   void draw_control(Settings& settings) const;

@@ -32,7 +32,16 @@ constexpr std::array switches{Switch{"mute", &Settings::is_muted},
                               Switch{"effects", &Settings::has_effects},
                               Switch{"reduced_motion", &Settings::has_less_motion},
                               Switch{"music", &Settings::has_music},
-                              Switch{"best_of_three", &Settings::is_best_of_three}};
+                              Switch{"best_of_three", &Settings::is_best_of_three},
+                              Switch{"finds_matches", &Settings::finds_matches}};
+
+/// Whether it can stand between quotes in the file.
+bool is_address(std::string_view text) {
+  return !text.empty() && text.size() <= address_size_max &&
+         std::ranges::all_of(text, [](char letter) {
+           return letter > ' ' && letter < 0x7f && letter != '"' && letter != '\\';
+         });
+}
 
 class Reader {
  public:
@@ -77,6 +86,8 @@ class Reader {
     } else if (key == "version") {
     } else if (key == "window") {
       read_window(node);
+    } else if (key == "addresses") {
+      read_addresses(node);
     } else if (key == "hints_seen") {
       read_hints(node);
     } else if (key == "colours") {
@@ -97,11 +108,10 @@ class Reader {
     } else if (!is_newer_) {
       std::string all = "version, ";
       for (const Switch& each : switches) all += std::string(each.name) + ", ";
-      problem(
-          node,
-          "there is no setting '" + std::string(key) + "'; there are: " + all +
-              "volume, window, colours, hints_seen, control, dead_zone, sensitivity, keys.left, "
-              "keys.right");
+      problem(node, "there is no setting '" + std::string(key) + "'; there are: " + all +
+                        "volume, window, colours, hints_seen, addresses, control, dead_zone, "
+                        "sensitivity, keys.left, "
+                        "keys.right");
     }
   }
 
@@ -121,6 +131,17 @@ class Reader {
       }
     }
     if (!is_newer_) problem(node, "window must be [width, height], from 320 and 240 to 8192");
+  }
+
+  void read_addresses(const toml::node& node) {
+    const toml::array* places = node.as_array();
+    if (places == nullptr || places->size() > addresses_max)
+      return problem(node, "addresses must be a list of at most 5 HOST:PORT in quotes");
+    for (const toml::node& each : *places) {
+      const auto place = each.value_exact<std::string>();
+      if (place && is_address(*place)) read_.settings.addresses.push_back(*place);
+      else problem(each, "expected HOST:PORT in quotes");
+    }
   }
 
   void read_hints(const toml::node& node) {
@@ -217,6 +238,13 @@ std::optional<Control> control_from_name(std::string_view name) {
 
 Settings::Settings() : keys(default_keys()) {}
 
+void remember_address(Settings& settings, const std::string& address) {
+  if (!is_address(address)) return;
+  std::erase(settings.addresses, address);
+  settings.addresses.insert(settings.addresses.begin(), address);
+  if (settings.addresses.size() > addresses_max) settings.addresses.resize(addresses_max);
+}
+
 std::array<KeySet, 2> default_keys() {
   return {KeySet{GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_W, GLFW_KEY_S},
           KeySet{GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_UP, GLFW_KEY_DOWN}};
@@ -258,7 +286,10 @@ std::string settings_text(const Settings& settings) {
   for (std::size_t hint = 0; hint < hint_names.size(); ++hint)
     if (settings.hints_seen[hint])
       seen += (seen.empty() ? "\"" : ", \"") + std::string(hint_names[hint]) + '"';
-  text << "hints_seen = [" << seen << "]\n";
+  std::string places;
+  for (const std::string& place : settings.addresses)
+    places += (places.empty() ? "\"" : ", \"") + place + '"';
+  text << "hints_seen = [" << seen << "]\naddresses = [" << places << "]\n";
   for (std::size_t player = 0; player < player_tables.size(); ++player) {
     text << "\n[keys." << player_tables[player] << "]\n";
     for (const game::Key key : game::all_keys)
@@ -294,6 +325,7 @@ Settings with_changes(Settings kept, const Settings& before, const Settings& aft
   carry(&Settings::keys), carry(&Settings::control), carry(&Settings::dead_zone);
   carry(&Settings::sensitivity), carry(&Settings::volume), carry(&Settings::hints_seen);
   carry(&Settings::window), carry(&Settings::palette);
+  carry(&Settings::addresses);
   return kept;
 }
 

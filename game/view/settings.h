@@ -31,8 +31,8 @@ inline constexpr std::array<const char*, 3> control_names{"keys", "pointer", "ga
 /// Nothing if `name` is none of control_names.
 std::optional<Control> control_from_name(std::string_view name);
 
-/// Of the file; 1 had no entry `version`.
-inline constexpr std::int64_t settings_version = 2;
+/// Of the file; 1 had no entry `version`, 2 no `addresses` and no `finds_matches`.
+inline constexpr std::int64_t settings_version = 3;
 
 /// Of a window on the desktop [points].
 struct WindowPoints {
@@ -62,11 +62,18 @@ struct Settings {
   bool is_split = true;  ///< two at one keyboard see the table each from the own end
   WindowPoints window{};
   PaletteKind palette = PaletteKind::standard;
+  bool finds_matches = true;             ///< asks the local network for matches
+  std::vector<std::string> addresses{};  ///< HOST:PORT that were joined, the last one first
   Settings();
   friend bool operator==(const Settings&, const Settings&) = default;
 };
 
 inline constexpr double dead_zone_max = 0.9, sensitivity_min = 0.2, sensitivity_max = 5.0;
+
+inline constexpr std::size_t addresses_max = 5, address_size_max = 255;
+
+/// Notes that `address` was joined last. One that no file could hold is left out.
+void remember_address(Settings& settings, const std::string& address);
 
 /// The default keys: WASD for the left player, the arrows for the right.
 std::array<KeySet, 2> default_keys();

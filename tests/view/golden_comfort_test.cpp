@@ -127,5 +127,26 @@ TEST_F(GoldenImages, OfAnImpactAndAGoalThatIsShownAgain) {
   is_as("goal_skipped");
 }
 
+/// Two hosts of one name are told apart by their places.
+TEST_F(GoldenImages, OfMatchesOnTheNetworkAndAddressesOfBefore) {
+  resize({480, 360, 1.0});
+  Settings settings = known();
+  for (const char* place : {"10.0.0.7:4711", "192.168.1.5:4711"}) remember_address(settings, place);
+  application_ = std::make_unique<Application>(
+      Surroundings{.make_match =
+                       [](const MatchWish&) { return std::make_unique<StillMatch>(match_sight()); },
+                   .find_matches =
+                       [] {
+                         return std::vector<game::FoundMatch>{
+                             {"Attic", "192.168.1.9:4711", 0.012, false},
+                             {"Kitchen", "192.168.1.4:4711", 0.0031},
+                             {"Kitchen", "192.168.1.5:4711", 0.0002}};
+                       }},
+      settings);
+  for (int i = 0; i < 3; ++i) tap("down");
+  tap("enter");
+  expect_golden("found");
+}
+
 }  // namespace
 }  // namespace rink::view

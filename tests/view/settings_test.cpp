@@ -197,5 +197,31 @@ TEST(Settings, EveryKeyOfBothPlayersMeansItsDirection) {
   EXPECT_FALSE(bound(settings, *key_code_from_name("q")));
 }
 
+TEST(Settings, KeepTheAddressesThatWereJoinedLast) {
+  Settings settings;
+  for (const char* place : {"a:1", "b:2", "c:3", "a:1", "d:4", "e:5", "f:6"})
+    remember_address(settings, place);
+  EXPECT_THAT(settings.addresses, ElementsAre("f:6", "e:5", "d:4", "a:1", "c:3"));
+  for (const std::string& bad : {std::string(), std::string("a b"), std::string("a\"b:1"),
+                                 std::string(256, 'x'), std::string("a\nb")})
+    remember_address(settings, bad);
+  EXPECT_EQ(settings.addresses.front(), "f:6");
+  settings.finds_matches = false;
+  const ReadSettings read = parse_settings(settings_text(settings), "play.toml");
+  EXPECT_THAT(read.errors, IsEmpty());
+  EXPECT_EQ(read.settings, settings);
+  EXPECT_EQ(with_changes(Settings(), Settings(), settings), settings);
+}
+
+TEST(Settings, NameAddressesThatAreNone) {
+  for (const char* wrong : {"addresses = 3\n", "addresses = [\"a b\"]\n", "addresses = [7]\n",
+                            "addresses = [\"1\",\"2\",\"3\",\"4\",\"5\",\"6\"]\n"}) {
+    const ReadSettings read = parse_settings(wrong, "play.toml");
+    ASSERT_EQ(read.errors.size(), 1u) << wrong;
+    EXPECT_THAT(read.errors[0], HasSubstr("play.toml:1: "));
+    EXPECT_THAT(read.errors[0], HasSubstr("HOST:PORT"));
+  }
+}
+
 }  // namespace
 }  // namespace rink::view

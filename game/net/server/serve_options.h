@@ -16,8 +16,10 @@ struct ServeOptions {
               policy = "periodic", keys, record, report, trace, status, pace = "realtime",
               transport = "tcp", hosted;
   std::string key_file, from_state;
-  std::string continued;               ///< the record that the first hosted match goes on from
-  std::string node_listen, join;       ///< where other nodes reach this one; any other node to join
+  std::string name;               ///< of a hosted match on the local network; empty: the machine's
+  bool is_announced = true;       ///< to the local network, where a match is hosted
+  std::string continued;          ///< the record that the first hosted match goes on from
+  std::string node_listen, join;  ///< where other nodes reach this one; any other node to join
   std::vector<std::string> always{};   ///< kinds that are relevant to everybody; none: the scene's
   std::vector<std::string> plugins{};  ///< files of plugins that the scheme may name
   std::vector<std::string> members{};  ///< of the federation file's list, if it has one
