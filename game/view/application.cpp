@@ -101,7 +101,7 @@ void Application::do_wish(const MenuWish& wish) {
 /// Two players at one keyboard see the table each from their own end, unless they chose a camera
 /// for both.
 bool Application::is_split() const {
-  return settings_.is_split && !chosen_viewpoint_ && match_->hand_count() == 2 &&
+  return settings_.is_split && !cameras_.chosen && match_->hand_count() == 2 &&
          wish_.kind != MatchWish::Kind::bots;
 }
 
@@ -178,7 +178,7 @@ void Application::Feel::look(const MatchSource& match, double elapsed_s) {
 }
 
 ViewChoice Application::view(const MatchSight& sight, double now_s) {
-  if (chosen_viewpoint_) view_.viewpoint = *chosen_viewpoint_;
+  if (cameras_.chosen) view_.viewpoint = *cameras_.chosen;
   else if (sight.own_team)
     view_.viewpoint =
         *sight.own_team == game::Team::left ? Viewpoint::left_end : Viewpoint::right_end;

@@ -47,7 +47,7 @@ class Application {
   void play(const MatchWish& wish);
   /// Shows an error in the menu, which offers to try `again`, and reports it.
   void explain(const std::string& error, const std::optional<MatchWish>& again = std::nullopt);
-  void set_viewpoint(Viewpoint viewpoint) { chosen_viewpoint_ = viewpoint; }
+  void set_viewpoint(Viewpoint viewpoint) { cameras_.chosen = viewpoint; }
 
   void show_figures() { figures_.are_shown = true; }
 
@@ -88,6 +88,10 @@ class Application {
   struct Told {
     FirstMinute first;
     Series series;
+  };
+
+  struct Cameras {
+    std::optional<Viewpoint> chosen, before_split;  ///< the latter when two views were asked for
   };
 
   struct Feel {
@@ -144,7 +148,7 @@ class Application {
   MatchWish wish_;
   std::unique_ptr<MatchSource> match_;
   std::vector<HeldKey> held_;
-  std::optional<Viewpoint> chosen_viewpoint_;
+  Cameras cameras_;
   ViewChoice view_;
   InterestChoice interest_;
   std::optional<Phase> phase_;  ///< of the last frame

@@ -55,7 +55,9 @@ void Application::set_split(bool is_wanted) {
   if (match_->hand_count() != 2) return;
   release_all();
   settings_.is_split = is_wanted;
-  chosen_viewpoint_.reset();
+  // Back from two views it is the one that was chosen before.
+  if (is_wanted) cameras_.before_split = std::exchange(cameras_.chosen, std::nullopt);
+  else cameras_.chosen = cameras_.before_split;
   do_wish({MenuWish::Kind::settings_changed, {}});
 }
 
@@ -89,9 +91,9 @@ bool Application::hear_command(KeyCode code) {
     case GLFW_KEY_C:
       release_all();
       use(Hint::camera);
-      chosen_viewpoint_ = is_split()
-                              ? Viewpoint::side
-                              : static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
+      cameras_.chosen = is_split()
+                            ? Viewpoint::side
+                            : static_cast<Viewpoint>((static_cast<int>(view_.viewpoint) + 1) % 4);
       return true;
     case GLFW_KEY_M:
       settings_.is_muted = !settings_.is_muted;

@@ -163,6 +163,7 @@ void add_link(const MatchSight& sight, const ViewChoice& choice, std::vector<Tex
   std::snprintf(words, sizeof words, "tick %llu   %.0f bytes/s",
                 static_cast<unsigned long long>(link.tick), link.payload_bytes_per_s);
   line(words);
+  if (!sight.own_team && !sight.own_thing) return;  // who watches has no bat
   std::snprintf(words, sizeof words, "own bat %.0f ms ahead   %llu corrections, the last %.1f mm",
                 link.lead_ms, static_cast<unsigned long long>(link.corrections),
                 link.last_correction_mm);
@@ -276,6 +277,21 @@ Picture picture_of(const MatchSight& sight, const Overlay& overlay, const ViewCh
                              .align = Text::Align::left,
                              .colour = bright});
     y += 0.042f;
+  }
+  for (const Overlay::Meaning& each : overlay.legend) {
+    picture.panels.push_back({.x = 0.022f,
+                              .y = y - 0.012f,
+                              .width = 0.022f,
+                              .height = 0.024f,
+                              .fill = faded(each.colour, 1.0f),
+                              .outline = bright});
+    picture.texts.push_back({.words = each.words,
+                             .x = 0.054f,
+                             .y = y,
+                             .size = 0.026f,
+                             .align = Text::Align::left,
+                             .colour = bright});
+    y += 0.038f;
   }
   if (choice.viewpoint == Viewpoint::above)
     for (Text& text : picture.texts) text.has_plate = text.size < 0.1f;

@@ -207,6 +207,11 @@ TEST_F(GoldenImages, OfTwoWhoShareAKeyboardEachFromTheOwnEnd) {
   tap("v");
   tap("c");
   expect_golden("side");
+  application_->set_viewpoint(Viewpoint::above);  // as --camera does
+  tap("v");
+  expect_golden("split");
+  tap("v");
+  expect_golden("above");
 }
 
 TEST_F(GoldenImages, OfOtherWindowsAndScales) {

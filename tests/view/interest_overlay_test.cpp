@@ -65,6 +65,16 @@ TEST(InterestOverlay, CountsThePlayersWhoAreThereAndNotTheBats) {
   EXPECT_EQ(interest_overlay(sight, {}).lines, free);
 }
 
+TEST(InterestOverlay, SaysWhatItsColoursMean) {
+  MatchSight sight = decided_sight();
+  const Overlay overlay = interest_overlay(sight, {});
+  ASSERT_EQ(overlay.legend.size(), 5u);
+  for (const OverlayDisc& disc : overlay.discs)
+    EXPECT_EQ(std::ranges::count(overlay.legend, disc.colour, &Overlay::Meaning::colour), 1);
+  sight.interest->cell_size = 0.0f;
+  EXPECT_EQ(interest_overlay(sight, {}).legend.size(), 4u) << "without cells they mean nothing";
+}
+
 TEST(InterestOverlay, IsEmptyUnlessSomethingWasToldAndItIsWanted) {
   MatchSight sight = decided_sight();
   for (const bool is_told : {true, false}) {

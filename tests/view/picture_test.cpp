@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace rink::view {
 namespace {
@@ -95,6 +97,21 @@ TEST(Pictures, AreAPureFunctionOfTheSight) {
   EXPECT_FLOAT_EQ(a.pieces[0].half_y, 0.1f);
   EXPECT_EQ(a.pieces[0].shape, Piece::Shape::bat);
   EXPECT_EQ(a.pieces[1].shape, Piece::Shape::puck);
+}
+
+TEST(Pictures, ShowFiguresOfAnOwnBatOnlyToWhoHasOne) {
+  MatchSight sight = bat_and_puck();
+  sight.link = LinkFigures{.ping_ms = 10.0};
+  const auto has = [&](const char* words) {
+    const Picture picture = picture_of(sight, {}, {.shows_link = true}, wide);
+    return std::ranges::any_of(picture.texts, [&](const Text& text) {
+      return text.words.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(has("ping 10 ms"));
+  EXPECT_FALSE(has("corrections")) << "who watches has no bat";
+  sight.own_team = game::Team::left;
+  EXPECT_TRUE(has("corrections"));
 }
 
 TEST(Pictures, TurnTheScoreWithTheEndItIsReadFrom) {

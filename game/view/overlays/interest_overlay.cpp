@@ -132,6 +132,11 @@ Overlay interest_overlay(const MatchSight& sight, const InterestChoice& choice) 
   add_rings(sight, seen, overlay);
   const auto asked = std::ranges::find(sight.things, seen.asked, &Thing::id);
   if (asked != sight.things.end()) add_lines(sight, seen, *asked, overlay);
+  overlay.legend = {{asked_of, "the body that is asked of"},
+                    {hearing, "players that are sent it"},
+                    {heard, "its player's region, and what that player is sent"},
+                    {{0.25f, 0.30f, 0.42f, 1.0f}, "regions of the others"}};
+  if (overlay.cell_size > 0.0) overlay.legend.push_back({overlay.cell_colour, "cells of the grid"});
   overlay.lines.emplace_back("Tab or a click asks of another, I hides this");
   return overlay;
 }

@@ -41,6 +41,11 @@ struct Overlay {
   std::vector<OverlayRectangle> rectangles;
   std::vector<OverlayDisc> discs;
   std::vector<std::string> lines;  ///< of text, shown in a corner
+  struct Meaning {
+    Colour colour{};
+    std::string words{};
+  };
+  std::vector<Meaning> legend{};  ///< what its colours mean, shown below the lines
 };
 
 }  // namespace rink::view
