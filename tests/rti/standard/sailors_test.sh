@@ -2,7 +2,7 @@
 # Two federates of the standard's API, compiled as C++14, meet at a hosted RTI: sailors_test.sh RTI SAILOR MODEL WORK
 set -eu
 rti=$1 sailor=$2 model=$3 work=$4
-mkdir -p "$work"
+mkdir -p "$work" && rm -f "$work"/*  # of an earlier run: its RTI is elsewhere
 "$rti" --fom "$model" --listen 127.0.0.1:0 >"$work/rti" 2>&1 &
 host=$!
 trap 'kill $host 2>/dev/null || true' EXIT
