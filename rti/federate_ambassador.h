@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "rti/hla_error.h"
-#include "rti/management/federation_report.h"
 #include "rti/membership.h"
 #include "rti/save/save_status.h"
 #include "rti/types.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
+
+struct FederationReport;  // rti/management/federation_report.h
 
 /// All bodies are empty: override what matters. Views handed in are valid during the call.
 /// Callbacks may call any service of the ambassador except `receive`, `advance_clock` and

@@ -40,7 +40,8 @@ void GroupJoin::clear() { own_.clear(), other_.clear(); }
 std::size_t GroupJoin::gather(const Inquiry& inquiry, std::size_t first, std::size_t end,
                               Part& part) {
   const auto& [index, askers, judge] = inquiry;
-  for (std::size_t count = std::min<std::size_t>(scan_width, end - first);; count /= 2) {
+  // Of the same eight whoever begins: then two who share the work look at the same boxes as one.
+  for (std::size_t count = std::min(end - first, scan_width - first % scan_width);; count /= 2) {
     part.stretches.clear();
     const GroupBoxes boxes = boxes_of(askers, first, count);
     const std::size_t looked_at = index.find_changes(boxes.hull, boxes.core, part.stretches);
@@ -80,7 +81,8 @@ void GroupJoin::add(const Inquiry& inquiry, std::size_t begin, std::size_t end, 
 }
 
 void GroupJoin::add_changes(const BoxIndex& index, const BoxIndex& askers, const TieJudge& judge) {
-  const std::size_t count = askers.size(), middle = worker_ != nullptr ? count / 2 : count;
+  const std::size_t count = askers.size(),
+                    middle = worker_ != nullptr ? count / 2 / scan_width * scan_width : count;
   const Inquiry inquiry{index, askers, judge};
   run_both(
       worker_, [&] { add(inquiry, 0, middle, own_); },

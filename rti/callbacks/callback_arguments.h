@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rti/federate_ambassador.h"
+#include "rti/management/federation_report.h"
 
 namespace rink::rti {
 

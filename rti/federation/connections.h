@@ -13,6 +13,7 @@
 #include "rti/federation/management/federation_census.h"
 #include "rti/federation/membership.h"
 #include "rti/federation/status.h"
+#include "rti/management/federation_report.h"
 
 namespace rink::rti {
 

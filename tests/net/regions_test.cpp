@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rti/management/federation_report.h"
 #include "tests/net/lockstep_rink.h"
 #include "tests/net/scenes.h"
 

@@ -21,6 +21,7 @@
 #include "game/net/server/serve_status.h"
 #include "game/process/process.h"
 #include "game/replication/names.h"
+#include "rti/management/federation_report.h"
 #include "rti/transport/federate_link.h"
 #include "rti/transport/tcp/tcp.h"
 #include "tests/net/guest.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rti/federation_directory.h"
+#include "rti/management/federation_report.h"
 #include "rti/wire/management_messages.h"
 #include "tests/rti/rig.h"
 

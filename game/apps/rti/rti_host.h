@@ -10,6 +10,7 @@
 #include "game/net/exit_status.h"
 #include "rti/federation_directory.h"
 #include "rti/fom/fom.h"
+#include "rti/management/federation_report.h"
 #include "rti/transport/federation_host.h"
 #include "rti/transport/socket_transport.h"
 #include "rti/transport/staged/staged_transport.h"

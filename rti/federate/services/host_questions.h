@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rti/federate/ambassador_basis.h"
+#include "rti/management/federation_report.h"
 #include "rti/wire/stream.h"
 
 namespace rink::rti {

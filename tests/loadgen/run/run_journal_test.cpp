@@ -51,6 +51,8 @@ nlohmann::ordered_json line_of_distinct_values() {
     else replace(value);
   }
   line["server_cores"] = 2;
+  line["bytes_by_field"] =
+      nlohmann::ordered_json::parse(R"([["down","stream","updates","place.x",1.5,2.5]])");
   return line;
 }
 

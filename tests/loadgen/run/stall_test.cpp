@@ -18,6 +18,7 @@
 #include "game/net/address.h"
 #include "game/net/server/serve_status.h"
 #include "game/process/process.h"
+#include "rti/management/federation_report.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 

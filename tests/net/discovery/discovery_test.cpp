@@ -1,25 +1,26 @@
 // Hosts of matches and who looks for them, by this machine's loopback interface.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <chrono>
 #include <functional>
 #include <random>
+#include <string>
 
 #include "game/net/discovery/match_announcer.h"
 #include "game/net/discovery/match_search.h"
 #include "rti/wire/membership_messages.h"
+#include "tests/temporary_folder.h"
 
 namespace rink::game {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// A port of this process alone, so that tests at the same time do not hear each other.
+/// A port of this test, so that those at the same time do not hear each other.
 rti::MulticastGroup own_group() {
   rti::MulticastGroup group = discovery_group();
-  group.port = static_cast<std::uint16_t>(20'000 + getpid() % 10'000);
+  group.port = static_cast<std::uint16_t>(
+      20'000 + std::hash<std::string>{}(test::unique_name("group")) % 10'000);
   return group;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rti/federate_ambassador.h"
+#include "rti/management/federation_report.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti::testing {

@@ -1,4 +1,5 @@
 // What newcomers are told of objects whose updates go in time-stamp order.
+#include "rti/management/federation_report.h"
 #include "tests/rti/time/relaxed_time.h"
 #include "tests/rti/time/timed_federation.h"
 

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "rti/management/federation_report.h"
 #include "rti/objects/name_book.h"
 #include "rti/wire/message.h"
 #include "tests/rti/rig.h"
