@@ -40,7 +40,8 @@ std::unique_ptr<FederationParts> FederationExecution::make(const Fom& fom,
                        [this, &made, services](const SavedFederation& saved) {
                          prepared_ = make(made.ground.fom, made.ground.settings, services);
                          prepared_->ground.now = made.ground.now;
-                         return read_state(*prepared_, saved.state);
+                         return read_state(*prepared_, saved.state) &&
+                                are_those_of(*prepared_, saved.federates);
                        });
   return parts;
 }

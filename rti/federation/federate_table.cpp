@@ -71,4 +71,25 @@ std::optional<std::uint32_t> FederateTable::joined(FederateHandle federate) cons
                                                                            : std::nullopt;
 }
 
+bool FederateTable::is_sound() const {
+  std::size_t count = 0;
+  for (std::uint32_t slot = 0; slot < size(); ++slot) {
+    const JoinedFederate& federate = federates_[slot];
+    if (!federate.is_joined) continue;
+    const auto named = names_.find(federate.name);
+    if (named == names_.end() || named->second != slot || !was_given(federate.handle) ||
+        slot_of(federate.handle) != slot || federate.block >= next_block_)
+      return false;
+    ++count;
+  }
+  std::vector<bool> is_free(size());
+  for (const std::uint32_t slot : free_) {
+    if (slot >= size() || federates_[slot].is_joined || is_free[slot]) return false;
+    is_free[slot] = true;
+  }
+  return count == joined_count_ && names_.size() == count && next_block_ <= object_block_max &&
+         std::ranges::all_of(slot_of_handle_, [&](std::uint32_t slot) { return slot < size(); }) &&
+         std::ranges::all_of(free_blocks_, [&](std::uint32_t each) { return each < next_block_; });
+}
+
 }  // namespace rink::rti

@@ -62,11 +62,14 @@ class FederateTable {
   template <class Stream>
   bool keep(Stream& stream) {
     return keep_all(stream, federates_, free_, free_blocks_, next_block_, joined_count_,
-                    slot_of_handle_, names_);
+                    slot_of_handle_, names_) &&
+           (!Stream::is_reading || is_sound());
   }
 
  private:
   std::uint32_t take_slot();
+  /// True if names, handles, blocks and free slots are those of these federates.
+  bool is_sound() const;
 
   std::vector<JoinedFederate> federates_;  ///< by slot
   std::vector<std::uint32_t> free_, free_blocks_;

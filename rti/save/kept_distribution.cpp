@@ -57,6 +57,18 @@ void KeptDistribution::gather_classes(const ClassInterest& classes, RegionHandle
   }
 }
 
+bool KeptDistribution::is_of(const FederateTable& federates) const {
+  const auto is_joined = [&](std::uint32_t slot) {
+    return slot < federates.size() && federates[slot].is_joined;
+  };
+  auto next = federates_.begin();
+  for (std::uint32_t slot = 0; slot < federates.size(); ++slot)
+    if (federates[slot].is_joined && (next == federates_.end() || next++->slot != slot))
+      return false;
+  return next == federates_.end() &&
+         std::ranges::all_of(associations_, is_joined, &KeptAssociation::maker);
+}
+
 bool KeptDistribution::apply(const Fom& fom, const ObjectTable& objects, Interest& interest) const {
   for (ObjectSlot object = 0; object < objects.slot_count(); ++object)
     if (objects[object].is_alive) interest.object_registered(object);

@@ -16,6 +16,8 @@ class KeptDistribution {
  public:
   /// Notes what the joined federates declared.
   void gather(const Interest& interest, const FederateTable& federates);
+  /// True if it is that of these federates, by slot.
+  bool is_of(const FederateTable& federates) const;
   /// Declares it again to `interest`, which must know the federates and no regions. False if the
   /// declarations contradict each other or the model.
   bool apply(const Fom& fom, const ObjectTable& objects, Interest& interest) const;

@@ -62,6 +62,16 @@ void tell_changes(FederateInterest& interest, const KeptScope& kept) {
   });
 }
 
+bool are_within(const std::vector<KeptScope>& scopes, const ObjectTable& objects) {
+  bool are = true;
+  const auto look = [&](ObjectSlot object) { are &= object < objects.slot_count(); };
+  for (const KeptScope& each : scopes) {
+    each.known.for_each(look);
+    each.announced.for_each(look);
+  }
+  return are;
+}
+
 void join_again(FederationParts& parts, std::uint32_t slot) {
   parts.objects.joined(slot);
   parts.interactions.joined(slot);
@@ -98,6 +108,7 @@ bool read_state(FederationParts& parts, Bytes bytes) {
   for_each_joined(federates, [&](std::uint32_t slot) { join_again(parts, slot); });
   if (!keep_services(reader, parts) || !keep_all(reader, parts.declarations, scopes) ||
       !reader.is_at_end() || scopes.size() != federates.joined_count() ||
+      !are_within(scopes, parts.ground.objects) || !distribution.is_of(federates) ||
       !distribution.apply(parts.ground.fom, parts.ground.objects, *interest))
     return false;
   do interest->match();
@@ -109,6 +120,19 @@ bool read_state(FederationParts& parts, Bytes bytes) {
   });
   parts.declarations.restored();
   return true;
+}
+
+bool are_those_of(const FederationParts& parts, const std::vector<SavedFederate>& federates) {
+  bool are = federates.size() == parts.ground.federates.joined_count();
+  auto next = federates.begin();
+  for_each_joined(parts.ground.federates, [&](std::uint32_t slot) {
+    if (!are) return;
+    const JoinedFederate& federate = parts.ground.federates[slot];
+    const SavedFederate& saved = *next++;
+    are = saved.slot == slot && saved.handle == federate.handle && saved.name == federate.name &&
+          saved.type == federate.type && saved.ambassador.size() <= RestoredMessage::size_max;
+  });
+  return are;
 }
 
 }  // namespace rink::rti

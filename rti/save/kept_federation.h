@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "rti/save/saved_federation.h"
 #include "rti/wire/bytes.h"
 
 namespace rink::rti {
@@ -16,5 +17,7 @@ bool write_state(FederationParts& parts, std::vector<std::byte>& bytes);
 /// `parts` must be new, and the model that of the state. Connections are those of nobody yet. False
 /// if the bytes are damaged: then `parts` is fit for nothing but its destruction.
 bool read_state(FederationParts& parts, Bytes bytes);
+/// True if `federates` are those that have joined, in the order of their slots.
+bool are_those_of(const FederationParts& parts, const std::vector<SavedFederate>& federates);
 
 }  // namespace rink::rti

@@ -1,6 +1,7 @@
 // Restoring a federation: everything is as it was saved, or nothing changes (IEEE 1516.1-2010, 4.24
 // to 4.31).
 #include "rti/save/saved_federation.h"
+#include "rti/wire/save_messages.h"
 #include "tests/rti/save/saved_fleet.h"
 
 namespace rink::rti::testing {
@@ -136,6 +137,18 @@ TEST_F(Restore, IsRefusedByNameOfWhatIsNoSaveOfThisFederation) {
   refused("it is of another object model");
   changed([](SavedFederation& saved) { saved.state.resize(saved.state.size() / 2); });
   refused("it is damaged: its state cannot be read");
+  const auto damaged = [&](const auto& change) {
+    changed(change);
+    refused("it is damaged: its state cannot be read");
+  };
+  damaged([](SavedFederation& saved) { saved.federates[1].slot = 0xfffffffe; });
+  damaged([](SavedFederation& saved) { saved.federates[1].slot = 0; });
+  damaged([](SavedFederation& saved) { std::swap(saved.federates[0], saved.federates[1]); });
+  damaged([](SavedFederation& saved) { saved.federates[0].handle = {1}; });
+  damaged([](SavedFederation& saved) { saved.federates[0].name = "somebody"; });
+  damaged([](SavedFederation& saved) {
+    saved.federates[0].ambassador.resize(RestoredMessage::size_max + 1);
+  });
   std::vector<std::byte>& bytes = fleet.store->saves["noon"];
   bytes = whole;
   bytes[8] = std::byte{2};
