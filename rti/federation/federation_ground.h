@@ -27,7 +27,6 @@ struct FederationGround {
   FederationCounters counters;
   double now = 0.0;  ///< as the clock was last advanced [s]
   SavePhase save_phase = SavePhase::idle;
-  bool was_restored = false;
   FederateTable federates;
   ObjectTable objects;
   Ownership ownership;

@@ -65,7 +65,6 @@ void FederationParts::advance_clock(double now, bool is_behind) {
 
 /// What belongs to the connection and not to the federate goes on as it was.
 void FederationParts::take_over(FederationParts& former) {
-  ground.was_restored = true;
   ground.now = former.ground.now;
   ground.counters = former.ground.counters;
   const std::vector<std::uint32_t>& slots = former.saves.mapping();
@@ -81,7 +80,7 @@ void FederationParts::take_over(FederationParts& former) {
     to.stamp_steps = from.stamp_steps;
     to.entry_values = std::move(from.entry_values);
     to.entry_header = from.entry_header;
-    to.has_stream_only = true;
+    to.has_stream_only = to.was_restored = true;
   }
   connections.take_over(former.connections, slots);
   saves.announce_restored(former.saves.saved());

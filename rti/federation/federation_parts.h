@@ -79,9 +79,9 @@ class FederationParts final : private FrameHandler {
   void begin_frame(std::uint32_t slot) override;
   Status handle_message(std::uint32_t slot, Reader& reader) override;  ///< message_table.cpp
   void end_frame(std::uint32_t slot) override { objects.receiver.handle_held(slot); }
-  /// A datagram may be older than the restore, and would bring back what was undone.
+  /// A datagram that is older than the restore would bring back what was undone.
   void handle_datagram(std::uint32_t slot, Bytes datagram) override {
-    if (!ground.was_restored) objects.receiver.receive(slot, datagram);
+    if (!ground.federates[slot].was_restored) objects.receiver.receive(slot, datagram);
   }
 };
 

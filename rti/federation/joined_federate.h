@@ -45,6 +45,7 @@ struct JoinedFederate {
   EntryValues entry_values;         ///< of entries in these frames
   EntryHeader entry_header;         ///< of the last block of entries in these frames
   bool has_stream_only = false;     ///< no datagrams, whatever its connection could carry
+  bool was_restored = false;        ///< its datagrams may be older than the restore
   std::unique_ptr<DatagramChannel> channel;  ///< null until it has one
 };
 

@@ -137,7 +137,6 @@ bool FederateSaves::handle_notice(Reader& reader) {
     case SaveNotice::initiate_restore:
       if (activity_ != Activity::none) return false;
       settle();
-      uses_.sender.keep_time();
       activity_ = Activity::restoring;
       step_ = Step::asked;
       number_ = message.number;
@@ -204,8 +203,9 @@ bool FederateSaves::handle_status(Reader& reader) {
 
 bool FederateSaves::handle_restored(Reader& reader) {
   RestoredMessage message;
-  if (!exchange(reader, message) || activity_ != Activity::restoring || !read_(message.state))
-    return false;
+  if (!exchange(reader, message) || activity_ != Activity::restoring) return false;
+  uses_.sender.keep_time();
+  if (!read_(message.state)) return false;
   uses_.session.restored({message.federate});
   end();
   was_restored_ = true;

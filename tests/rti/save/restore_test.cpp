@@ -261,5 +261,53 @@ TEST_F(Restore, OfARestoredFederationIsSavedByTheSameBytes) {
     EXPECT_EQ(before.federates[i].ambassador, after.federates[i].ambassador) << i;
 }
 
+const ObjectClassHandle tide = *harbour().object_class("Tide");
+const AttributeSet level{*harbour().attribute(tide, "level")};
+
+/// What the federate of that connection has to send by datagram arrives.
+std::size_t take_datagrams(SavedFleet& fleet, ConnectionId id) {
+  Ambassador& rti = *fleet.members[id].ambassador;
+  const std::span<const Datagram> datagrams = rti.outgoing_datagrams();
+  for (const Datagram& each : datagrams) fleet.execution().receive_datagram(id, each.head);
+  rti.clear_outgoing_datagrams();
+  return datagrams.size();
+}
+
+TEST_F(Restore, LeavesDatagramsToWhoJoinsLater) {
+  pilot->ambassador->request_federation_restore("noon");
+  ASSERT_EQ(fleet.told(*pilot), restored_as("pilot", true));
+  auto& late = fleet.join("late", "gauge");
+  late.ambassador->publish_object_class_attributes(tide, level);
+  coast->ambassador->subscribe_object_class_attributes(tide, level);
+  const ObjectHandle water = late.ambassador->register_object_instance(tide);
+  fleet.tick();
+  late.ambassador->expect_datagrams(400);
+  for (const double height : {1.0, 2.0, 3.0}) {
+    late.ambassador->update_attribute_values(water, level, values_of(height), {height, 0});
+    EXPECT_EQ(take_datagrams(fleet, 2), 1u);
+    fleet.tick(1);
+    EXPECT_EQ(coast->heard.objects.at(water.value).values.at(0), values_of(height));
+  }
+}
+
+TEST_F(Restore, ThatFailsLeavesDatagramsToItsFederates) {
+  pilot->ambassador->publish_object_class_attributes(tide, level);
+  coast->ambassador->subscribe_object_class_attributes(tide, level);
+  const ObjectHandle water = pilot->ambassador->register_object_instance(tide);
+  fleet.tick();
+  coast->heard.restore_answer = Keeper::Answer::not_complete;
+  pilot->ambassador->request_federation_restore("noon");
+  fleet.tick();
+  ASSERT_TRUE(pilot->heard.told.back().starts_with("not restored"));
+  pilot->ambassador->expect_datagrams(400);
+  std::size_t sent = 0;
+  for (const double height : {1.0, 2.0, 3.0}) {
+    pilot->ambassador->update_attribute_values(water, level, values_of(height), {height, 0});
+    sent += take_datagrams(fleet, 0);
+    fleet.tick(1);
+  }
+  EXPECT_GT(sent, 0u);
+}
+
 }  // namespace
 }  // namespace rink::rti::testing
