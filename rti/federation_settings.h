@@ -42,6 +42,7 @@ struct FederationSettings {
   std::uint32_t timed_per_federate_max = 1u
                                          << 18;  ///< of those that their sender can still take back
   std::size_t timed_bytes_per_federate_max = 64u << 20;  ///< of what those messages say
+  double save_s_max = 900.0;  ///< that a save or a restore may take [s]; then it fails
   Timeouts timeouts;
   UpdateRate update_rate;  ///< of federates that join; FederationExecution::set_update_rate changes
                            ///< that of one

@@ -101,6 +101,10 @@ void FederationParts::flush(Outlet& outlet) {
   if (saves.takes_flush()) {
     connections.send_answers(outlet);
     saves.flush(outlet);
+    if (saves.is_early()) {
+      objects.requests.flushed();
+      interactions.flushed();
+    }
     return connections.close_pending(outlet);
   }
   time.settle();

@@ -203,7 +203,7 @@ void SaveService::begin_save() {
   notice.time = wish.time.value_or(0.0);
   tell_all(notice);
   for_each_joined([&](std::uint32_t slot) { part(slot).save = SaveStatus::instructed; });
-  uses_.phase = SavePhase::saving;
+  begin(SavePhase::saving);
 }
 
 void SaveService::begin_restore() {
@@ -236,7 +236,29 @@ void SaveService::begin_restore() {
     tell(slot, notice);
     part(slot).restore = RestoreStatus::restoring;
   });
-  uses_.phase = SavePhase::restoring;
+  begin(SavePhase::restoring);
+}
+
+void SaveService::begin(SavePhase phase) {
+  uses_.phase = phase;
+  began_at_ = basis_.now;
+  frozen_flushes_ = 0;
+}
+
+/// Names who is waited for: it is alive, or it would have left.
+void SaveService::fail_if_late() {
+  if (basis_.now - began_at_ <= basis_.settings.save_s_max) return;
+  std::string why;
+  for_each_joined([&](std::uint32_t slot) {
+    const bool is_done = uses_.phase == SavePhase::saving
+                             ? part(slot).save == SaveStatus::waiting
+                             : part(slot).restore == RestoreStatus::waiting;
+    if (!is_done && why.empty())
+      why = "federate '" + basis_.federates[slot].name + "' took too long";
+  });
+  if (why.empty()) return;
+  if (uses_.phase == SavePhase::saving) fail_save(SaveFailure::rti_detected_failure, why);
+  else fail_restore(RestoreFailure::rti_detected_failure, why);
 }
 
 /// Every saved federate needs a present one of its type, of its name if there is one of that.
@@ -270,7 +292,11 @@ std::string SaveService::match_federates() {
 }
 
 bool SaveService::takes_flush() {
-  if (uses_.phase != SavePhase::idle) answer_queries();
+  if (uses_.phase != SavePhase::idle) {
+    answer_queries();
+    ++frozen_flushes_;
+    if (!is_restored_) fail_if_late();
+  }
   if (uses_.phase == SavePhase::saving) {
     bool is_complete = true;
     for_each_joined(
@@ -326,6 +352,7 @@ void SaveService::fail_restore(RestoreFailure failure, std::string_view why) {
 
 void SaveService::end() {
   uses_.phase = SavePhase::idle;
+  frozen_flushes_ = 0;
   for (Part& each : parts_) {
     each.save = SaveStatus::none;
     each.restore = RestoreStatus::none;

@@ -53,6 +53,10 @@ class SaveService {
   /// Ends a save that all have completed. True if this flush sends what `flush` does, and nothing
   /// else.
   bool takes_flush();
+  /// True while a federate may not have heard yet of what has begun, and so goes on lawfully:
+  /// limits of what it may send in one flush are those of each. Without an end, who never hears of
+  /// it could fill the RTI.
+  bool is_early() const { return frozen_flushes_ <= early_flushes; }
   void flush(Outlet& outlet);
 
   /// The federates are restored, each present slot as the saved one that `mapping` gives: who asks
@@ -65,6 +69,7 @@ class SaveService {
   const SavedFederation& saved() const { return saved_; }
 
  private:
+  static constexpr std::uint32_t early_flushes = 128;
   struct Wish {
     std::uint32_t slot = 0;
     std::string label;
@@ -92,7 +97,9 @@ class SaveService {
   void finish_save();
   void fail_save(SaveFailure failure, std::string_view why);
   void fail_restore(RestoreFailure failure, std::string_view why);
+  void begin(SavePhase phase);
   void end();
+  void fail_if_late();
   Status take_save(std::uint32_t slot, SaveWord word, std::uint32_t number);
   Status take_restore(std::uint32_t slot, SaveWord word, std::uint32_t number);
 
@@ -107,6 +114,8 @@ class SaveService {
   SavedFederation saved_;               ///< to restore
   std::vector<std::uint32_t> mapping_;  ///< by present slot
   bool is_restored_ = false;
+  double began_at_ = 0.0;             ///< the save or restore under way [s]
+  std::uint32_t frozen_flushes_ = 0;  ///< since then
   GatheredFrame frame_;
 };
 

@@ -162,6 +162,61 @@ TEST(Save, DropsAFederateThatSendsOtherThingsAfterItHasBegun) {
   EXPECT_FALSE(coast.dropped.empty());
 }
 
+TEST(Save, FailsByNameOfWhoNeverAnswers) {
+  SavedFleet fleet;
+  fleet.settings.save_s_max = 3.0;
+  fleet.begin();
+  auto &pilot = fleet.join("pilot"), &coast = fleet.join("coast");
+  pilot.ambassador->request_federation_save("noon");
+  fleet.tick();
+  pilot.heard.told.clear();
+  coast.heard.save_answer = coast.heard.restore_answer = Keeper::Answer::nothing;
+  pilot.ambassador->request_federation_save("later");
+  fleet.tick();
+  fleet.execution().advance_clock(2.9);
+  EXPECT_EQ(fleet.told(pilot), ToldWords{"save later"});
+  fleet.execution().advance_clock(3.1);
+  EXPECT_EQ(fleet.told(pilot), ToldWords{"not saved: RTI detected failure during save; federate "
+                                         "'coast' took too long"});
+  pilot.ambassador->request_federation_restore("noon");
+  fleet.tick();
+  fleet.execution().advance_clock(6.0);
+  pilot.heard.told.clear();
+  EXPECT_EQ(fleet.told(pilot), ToldWords{});
+  fleet.execution().advance_clock(6.2);
+  EXPECT_EQ(fleet.told(pilot), ToldWords{"not restored: RTI detected failure during restore; "
+                                         "federate 'coast' took too long"});
+  EXPECT_EQ(fleet.told(coast).back(),
+            "not restored: RTI detected failure during restore; "
+            "federate 'coast' took too long");
+}
+
+TEST(Save, LimitsWhatAFederateSendsBeforeItHearsOfItByFlushAndNotInAll) {
+  SavedFleet fleet;
+  auto &pilot = fleet.join("pilot"), &coast = fleet.join("coast");
+  pilot.ambassador->publish_interaction_class(hail);
+  coast.ambassador->subscribe_interaction_class(hail);
+  pilot.heard.save_answer = coast.heard.save_answer = Keeper::Answer::nothing;
+  fleet.tick();
+  pilot.ambassador->request_federation_save("noon");
+  fleet.tick();
+  std::vector<std::byte> message;
+  InteractionMessage words{static_cast<std::uint16_t>(hail.value), FederateHandle::none, {}, {}};
+  const std::vector<std::byte> parameters = varying(std::string(20'000, 'a'));
+  words.parameters = parameters;
+  write(message, words);
+  const auto say = [&](int rounds) {
+    for (int round = 0; round < rounds && pilot.dropped.empty(); ++round) {
+      fleet.execution().receive(0, in_frame(message));
+      fleet.tick(1);
+    }
+  };
+  say(50);
+  EXPECT_EQ(pilot.dropped, "") << "1 MB in 50 flushes";
+  say(200);
+  EXPECT_NE(pilot.dropped, "") << "who never hears of it does not fill the RTI";
+}
+
 TEST(Save, AtATimeWaitsForEveryConstrainedFederate) {
   SavedFleet fleet;
   auto &pilot = fleet.join("pilot"), &coast = fleet.join("coast");

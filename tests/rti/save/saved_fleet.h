@@ -117,7 +117,8 @@ class SavedFleet : private Outlet {
   };
   std::shared_ptr<MemoryStore> store = std::make_shared<MemoryStore>();
   std::deque<Member> members;
-  std::string record;  ///< of the conversation, for the second reader
+  std::string record;           ///< of the conversation, for the second reader
+  FederationSettings settings;  ///< of the federation that begins next
 
   SavedFleet() { begin(); }
   /// The RTI begins anew, as another process, and knows the saves alone; so do the federates, who
@@ -128,7 +129,6 @@ class SavedFleet : private Outlet {
     files_ = std::move(files);
     members.clear();
     names_.clear();
-    FederationSettings settings;
     settings.filter = "region";
     FederationServices services;
     if (has_store) services.save_store = store;
