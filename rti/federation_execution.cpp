@@ -107,6 +107,7 @@ void FederationExecution::flush(Outlet& outlet) {
     parts_ = std::move(prepared_);
   }
   parts_->flush(outlet);
+  if (parts_->ground.save_phase != SavePhase::restoring) prepared_.reset();
 }
 FederationReport FederationExecution::report(const Outlet* outlet) const {
   return parts_->connections.report(outlet);

@@ -43,6 +43,7 @@ struct FederationSettings {
                                          << 18;  ///< of those that their sender can still take back
   std::size_t timed_bytes_per_federate_max = 64u << 20;  ///< of what those messages say
   double save_s_max = 900.0;  ///< that a save or a restore may take [s]; then it fails
+  std::size_t save_bytes_max = std::size_t{1} << 30;  ///< of what all ambassadors know, in one save
   Timeouts timeouts;
   UpdateRate update_rate;  ///< of federates that join; FederationExecution::set_update_rate changes
                            ///< that of one

@@ -110,6 +110,13 @@ Status SaveService::handle_state(std::uint32_t slot, Reader& reader) {
   if (uses_.phase != SavePhase::saving || own.save != SaveStatus::saving) return std::nullopt;
   if (own.ambassador.size() + message.piece.size() > RestoredMessage::size_max)
     return Violation::over_limit;
+  ambassador_bytes_ += message.piece.size();
+  if (ambassador_bytes_ > basis_.settings.save_bytes_max) {
+    fail_save(SaveFailure::rti_unable_to_save, "more than " +
+                                                   std::to_string(basis_.settings.save_bytes_max) +
+                                                   " bytes for all ambassadors");
+    return std::nullopt;
+  }
   own.ambassador.insert(own.ambassador.end(), message.piece.begin(), message.piece.end());
   return std::nullopt;
 }
@@ -223,7 +230,10 @@ void SaveService::begin_restore() {
   notice.text = wish.label;
   notice.name = std::string_view(why).substr(0, text_max);
   tell(wish.slot, notice);
-  if (!why.empty()) return;
+  if (!why.empty()) {
+    saved_ = {};
+    return;
+  }
   notice.notice = static_cast<std::uint8_t>(SaveNotice::restore_begun);
   notice.text = {};
   tell_all(notice);
@@ -353,6 +363,8 @@ void SaveService::fail_restore(RestoreFailure failure, std::string_view why) {
 void SaveService::end() {
   uses_.phase = SavePhase::idle;
   frozen_flushes_ = 0;
+  ambassador_bytes_ = 0;
+  saved_ = {};
   for (Part& each : parts_) {
     each.save = SaveStatus::none;
     each.restore = RestoreStatus::none;

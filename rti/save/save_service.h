@@ -109,6 +109,7 @@ class SaveService {
   Prepare prepare_;
   std::optional<Wish> save_, restore_;  ///< requested, and not begun
   std::string label_;                   ///< of the save under way
+  std::size_t ambassador_bytes_ = 0;    ///< of its parts
   std::uint32_t number_ = 0;            ///< of the save or restore under way, or of the last
   std::vector<Part> parts_;             ///< by slot
   SavedFederation saved_;               ///< to restore

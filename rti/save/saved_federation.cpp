@@ -1,6 +1,8 @@
 // The form of a saved federation in a file.
 #include "rti/save/saved_federation.h"
 
+#include <algorithm>
+
 #include "im/basics/fnv_hash.h"
 
 namespace rink::rti {
@@ -18,19 +20,18 @@ std::uint64_t hash_of_bytes(Bytes bytes) {
 }  // namespace
 
 std::vector<std::byte> encoded(SavedFederation& saved) {
-  std::vector<std::byte> content;
-  Writer writer(content);
+  std::vector<std::byte> bytes(head_size), head;
+  Writer writer(bytes);
   saved.keep(writer);
-  std::vector<std::byte> bytes;
-  bytes.reserve(head_size + content.size());
-  Writer head(bytes);
+  const Bytes content = Bytes(bytes).subspan(head_size);
+  Writer head_writer(head);
   Bytes kind = std::as_bytes(std::span(magic));
   std::uint32_t number = version;
   std::uint64_t size = content.size(), hash = hash_of_bytes(content);
-  head.rest(kind, kind.size());
-  head.number(number);
-  head.numbers(size, hash);
-  bytes.insert(bytes.end(), content.begin(), content.end());
+  head_writer.rest(kind, kind.size());
+  head_writer.number(number);
+  head_writer.numbers(size, hash);
+  std::ranges::copy(head, bytes.begin());
   return bytes;
 }
 

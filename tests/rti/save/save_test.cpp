@@ -191,6 +191,20 @@ TEST(Save, FailsByNameOfWhoNeverAnswers) {
             "federate 'coast' took too long");
 }
 
+TEST(Save, FailsBeyondTheBytesThatAllAmbassadorsMayHave) {
+  SavedFleet fleet;
+  fleet.settings.save_bytes_max = 20;
+  fleet.begin();
+  auto& pilot = fleet.join("pilot");
+  pilot.ambassador->request_federation_save("noon");
+  EXPECT_EQ(fleet.told(pilot),
+            (ToldWords{"save noon",
+                       "not saved: RTI unable to save; more than 20 bytes for all "
+                       "ambassadors"}));
+  EXPECT_TRUE(fleet.store->saves.empty());
+  EXPECT_TRUE(pilot.dropped.empty());
+}
+
 TEST(Save, LimitsWhatAFederateSendsBeforeItHearsOfItByFlushAndNotInAll) {
   SavedFleet fleet;
   auto &pilot = fleet.join("pilot"), &coast = fleet.join("coast");
