@@ -130,7 +130,8 @@ bool are_those_of(const FederationParts& parts, const std::vector<SavedFederate>
     const JoinedFederate& federate = parts.ground.federates[slot];
     const SavedFederate& saved = *next++;
     are = saved.slot == slot && saved.handle == federate.handle && saved.name == federate.name &&
-          saved.type == federate.type && saved.ambassador.size() <= RestoredMessage::size_max;
+          saved.type == federate.type &&
+          saved.ambassador.size() <= AmbassadorStateMessage::state_max;
   });
   return are;
 }

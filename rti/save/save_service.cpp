@@ -9,6 +9,16 @@
 
 namespace rink::rti {
 
+namespace {
+
+/// Where the last piece of a state begins.
+std::size_t last_piece(Bytes state) {
+  constexpr std::size_t size = AmbassadorStateMessage::size_max;
+  return state.empty() ? 0 : (state.size() - 1) / size * size;
+}
+
+}  // namespace
+
 SaveService::Part& SaveService::part(std::uint32_t slot) {
   if (slot >= parts_.size()) parts_.resize(slot + std::size_t{1});
   return parts_[slot];
@@ -88,7 +98,8 @@ Status SaveService::take_save(std::uint32_t slot, SaveWord word, std::uint32_t n
 }
 
 Status SaveService::take_restore(std::uint32_t slot, SaveWord word, std::uint32_t number) {
-  if (uses_.phase != SavePhase::restoring || number != number_ || is_restored_) return std::nullopt;
+  if (uses_.phase != SavePhase::restoring || number != number_ || is_handing_out_)
+    return std::nullopt;
   Part& own = part(slot);
   if (own.restore != RestoreStatus::restoring) return Violation::wrong_phase;
   if (word == SaveWord::restore_not_complete) {
@@ -97,9 +108,12 @@ Status SaveService::take_restore(std::uint32_t slot, SaveWord word, std::uint32_
     return std::nullopt;
   }
   own.restore = RestoreStatus::waiting;
-  is_restored_ = true;
+  is_handing_out_ = true;
   for_each_joined(
-      [&](std::uint32_t each) { is_restored_ &= part(each).restore == RestoreStatus::waiting; });
+      [&](std::uint32_t each) { is_handing_out_ &= part(each).restore == RestoreStatus::waiting; });
+  is_restored_ = is_handing_out_;
+  for_each_joined(
+      [&](std::uint32_t each) { is_restored_ &= last_piece(saved_of(each).ambassador) == 0; });
   return std::nullopt;
 }
 
@@ -108,7 +122,7 @@ Status SaveService::handle_state(std::uint32_t slot, Reader& reader) {
   if (!exchange(reader, message)) return Violation::malformed;
   Part& own = part(slot);
   if (uses_.phase != SavePhase::saving || own.save != SaveStatus::saving) return std::nullopt;
-  if (own.ambassador.size() + message.piece.size() > RestoredMessage::size_max)
+  if (own.ambassador.size() + message.piece.size() > AmbassadorStateMessage::state_max)
     return Violation::over_limit;
   ambassador_bytes_ += message.piece.size();
   if (ambassador_bytes_ > basis_.settings.save_bytes_max) {
@@ -117,7 +131,14 @@ Status SaveService::handle_state(std::uint32_t slot, Reader& reader) {
                                                    " bytes for all ambassadors");
     return std::nullopt;
   }
+  const std::size_t windows = own.ambassador.size() / AmbassadorStateMessage::window;
   own.ambassador.insert(own.ambassador.end(), message.piece.begin(), message.piece.end());
+  if (own.ambassador.size() / AmbassadorStateMessage::window != windows) {
+    SaveNoticeMessage notice;
+    notice.notice = static_cast<std::uint8_t>(SaveNotice::go_on);
+    notice.number = number_;
+    tell(slot, notice);
+  }
   return std::nullopt;
 }
 
@@ -262,7 +283,9 @@ void SaveService::fail_if_late() {
   for_each_joined([&](std::uint32_t slot) {
     const bool is_done = uses_.phase == SavePhase::saving
                              ? part(slot).save == SaveStatus::waiting
-                             : part(slot).restore == RestoreStatus::waiting;
+                             : part(slot).restore == RestoreStatus::waiting &&
+                                   (!is_handing_out_ ||
+                                    part(slot).handed_out >= last_piece(saved_of(slot).ambassador));
     if (!is_done && why.empty())
       why = "federate '" + basis_.federates[slot].name + "' took too long";
   });
@@ -356,12 +379,12 @@ void SaveService::fail_restore(RestoreFailure failure, std::string_view why) {
   notice.text = why.substr(0, text_max);
   notice.failure = static_cast<std::uint8_t>(failure);
   tell_all(notice);
-  is_restored_ = false;
   end();
 }
 
 void SaveService::end() {
   uses_.phase = SavePhase::idle;
+  is_handing_out_ = is_restored_ = false;
   frozen_flushes_ = 0;
   ambassador_bytes_ = 0;
   saved_ = {};
@@ -369,17 +392,43 @@ void SaveService::end() {
     each.save = SaveStatus::none;
     each.restore = RestoreStatus::none;
     each.ambassador = {};
+    each.handed_out = 0;
   }
+}
+
+/// The saved federates are in the order of their slots.
+const SavedFederate& SaveService::saved_of(std::uint32_t slot) const {
+  return *std::ranges::lower_bound(saved_.federates, mapping_[slot], {}, &SavedFederate::slot);
+}
+
+/// Whose queue does not empty keeps the former federation, and nobody is restored before all can
+/// be.
+void SaveService::hand_out(Outlet& outlet) {
+  is_restored_ = true;
+  for_each_joined([&](std::uint32_t slot) {
+    const SavedFederate& saved = saved_of(slot);
+    std::size_t& done = part(slot).handed_out;
+    constexpr std::size_t size = AmbassadorStateMessage::size_max;
+    std::size_t waiting = outlet.waiting_bytes(basis_.federates[slot].connection);
+    for (; done < last_piece(saved.ambassador) && waiting < AmbassadorStateMessage::window;
+         done += size, waiting += size) {
+      const Bytes piece = Bytes(saved.ambassador).subspan(done, size);
+      tell(slot, RestoredMessage{saved.handle.value, 0, piece});
+    }
+    is_restored_ &= done >= last_piece(saved.ambassador);
+  });
 }
 
 void SaveService::announce_restored(const SavedFederation& saved) {
   for (const SavedFederate& each : saved.federates) {
-    RestoredMessage message{each.handle.value, each.ambassador};
+    const Bytes state = each.ambassador;
+    RestoredMessage message{each.handle.value, 1, state.subspan(last_piece(state))};
     write(part(each.slot).mail, message);
   }
 }
 
 void SaveService::flush(Outlet& outlet) {
+  if (is_handing_out_) hand_out(outlet);
   for_each_joined([&](std::uint32_t slot) {
     JoinedFederate& federate = basis_.federates[slot];
     Part& own = part(slot);

@@ -63,7 +63,8 @@ class SaveService {
   /// makes the prepared federation the present one.
   bool is_restored() const { return is_restored_; }
   const std::vector<std::uint32_t>& mapping() const { return mapping_; }
-  /// The first words of a federation that was prepared by the service of the former.
+  /// The first words of a federation that was prepared by the service of the former: the last
+  /// pieces of what the ambassadors knew.
   void announce_restored(const SavedFederation& saved);
   /// The save from which the prepared federation is.
   const SavedFederation& saved() const { return saved_; }
@@ -79,6 +80,7 @@ class SaveService {
     SaveStatus save = SaveStatus::none;
     RestoreStatus restore = RestoreStatus::none;
     std::vector<std::byte> ambassador;                     ///< its state, once it was saved
+    std::size_t handed_out = 0;                            ///< of its state, to restore
     std::vector<std::byte> mail;                           ///< that is sent while nothing else is
     bool asks_for_save = false, asks_for_restore = false;  ///< how far that is
   };
@@ -100,6 +102,8 @@ class SaveService {
   void begin(SavePhase phase);
   void end();
   void fail_if_late();
+  const SavedFederate& saved_of(std::uint32_t slot) const;
+  void hand_out(Outlet& outlet);
   Status take_save(std::uint32_t slot, SaveWord word, std::uint32_t number);
   Status take_restore(std::uint32_t slot, SaveWord word, std::uint32_t number);
 
@@ -114,6 +118,7 @@ class SaveService {
   std::vector<Part> parts_;             ///< by slot
   SavedFederation saved_;               ///< to restore
   std::vector<std::uint32_t> mapping_;  ///< by present slot
+  bool is_handing_out_ = false;         ///< all have restored themselves
   bool is_restored_ = false;
   double began_at_ = 0.0;             ///< the save or restore under way [s]
   std::uint32_t frozen_flushes_ = 0;  ///< since then

@@ -43,10 +43,13 @@ bool exchange(Stream& stream, SaveRequestMessage& message) {
          stream.varint(message.number);
 }
 
-/// A piece of what a federate's ambassador knows: pieces precede the federate's "complete".
+/// A piece of what a federate's ambassador knows: pieces precede the federate's "complete". After
+/// each `window` the federate waits for the RTI's "go_on", so that no queue of a connection fills.
 struct AmbassadorStateMessage {
   static constexpr MessageKind kind = MessageKind::ambassador_state;
-  static constexpr std::size_t size_max = 32u << 10;  ///< bytes
+  static constexpr std::size_t size_max = 32u << 10;   ///< bytes
+  static constexpr std::size_t window = 8 * size_max;  ///< under way at once
+  static constexpr std::size_t state_max = 32u << 20;  ///< of all pieces
   Bytes piece;
 };
 template <class Stream>
@@ -65,6 +68,7 @@ enum class SaveNotice : std::uint8_t {
   restore_begun,
   initiate_restore,
   not_restored,
+  go_on,
 };
 /// `text` is a label, or why it failed; `name` and `federate` are those of `initiate_restore`,
 /// `name` is why a restore is refused, `failure` that of the two that failed. Each save and each
@@ -82,7 +86,7 @@ struct SaveNoticeMessage {
 };
 template <class Stream>
 bool exchange(Stream& stream, SaveNoticeMessage& message) {
-  if (!stream.range(message.notice, static_cast<std::uint64_t>(SaveNotice::not_restored)) ||
+  if (!stream.range(message.notice, static_cast<std::uint64_t>(SaveNotice::go_on)) ||
       !stream.varint(message.number) || !stream.text(message.text, text_max))
     return false;
   switch (static_cast<SaveNotice>(message.notice)) {
@@ -102,18 +106,18 @@ bool exchange(Stream& stream, SaveNoticeMessage& message) {
   }
 }
 
-/// The federation is restored: what the federate's ambassador knew, and its handle.
+/// A piece of what the federate's ambassador knew, and its handle. With the last the federation is
+/// restored; those before are sent as far as the connection takes them.
 struct RestoredMessage {
   static constexpr MessageKind kind = MessageKind::restored;
-  static constexpr std::size_t size_max = 32u << 20;  ///< bytes
   std::uint32_t federate = FederateHandle::none;
-  Bytes state;
+  std::uint8_t is_last = 0;
+  Bytes piece;
 };
 template <class Stream>
 bool exchange(Stream& stream, RestoredMessage& message) {
-  auto size = static_cast<std::uint32_t>(message.state.size());
-  return stream.number(message.federate) && stream.varint(size) &&
-         stream.check(size <= RestoredMessage::size_max) && stream.rest(message.state, size);
+  return stream.number(message.federate) && stream.range(message.is_last, 1) &&
+         stream.template bytes<std::uint16_t>(message.piece, AmbassadorStateMessage::size_max);
 }
 
 /// Answers a query: of each federate its handle before and after a restore, or its handle twice,

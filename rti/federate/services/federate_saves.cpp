@@ -46,6 +46,8 @@ bool FederateSaves::is_late(Activity activity, Step step) {
 void FederateSaves::end() {
   ended_ = std::exchange(activity_, Activity::none);
   ended_step_ = std::exchange(step_, Step::none);
+  outgoing_ = incoming_ = {};
+  sent_ = 0;
 }
 
 void FederateSaves::begun() {
@@ -64,13 +66,24 @@ void FederateSaves::complete(bool is_success) {
     throw RtiException(HlaError::federate_has_not_begun_save, "federate_save_begun comes first");
   step_ = Step::answered;
   if (!is_success) return say(SaveWord::not_complete);
-  std::vector<std::byte> state;
-  write_(state);
-  for (Bytes left = state; !left.empty();) {
+  outgoing_.clear();
+  sent_ = 0;
+  write_(outgoing_);
+  send_state();
+}
+
+void FederateSaves::send_state() {
+  const Bytes window = Bytes(outgoing_).subspan(sent_).first(
+      std::min(outgoing_.size() - sent_, AmbassadorStateMessage::window));
+  for (Bytes left = window; !left.empty();) {
     const Bytes piece = left.first(std::min(left.size(), AmbassadorStateMessage::size_max));
     basis_.frames.enqueue(AmbassadorStateMessage{piece});
     left = left.subspan(piece.size());
   }
+  sent_ += window.size();
+  if (sent_ < outgoing_.size()) return;
+  outgoing_ = {};
+  sent_ = 0;
   say(SaveWord::complete);
 }
 
@@ -150,6 +163,9 @@ bool FederateSaves::handle_notice(Reader& reader) {
     case SaveNotice::restore_refused:
     case SaveNotice::restore_begun:
       break;
+    case SaveNotice::go_on:
+      if (sent_ < outgoing_.size()) send_state();
+      return true;
   }
   call_back(message);
   return true;
@@ -177,6 +193,8 @@ void FederateSaves::call_back(const SaveNoticeMessage& message) {
     case SaveNotice::not_restored:
       return federate.federation_not_restored(static_cast<RestoreFailure>(message.failure),
                                               message.text);
+    case SaveNotice::go_on:
+      return;
   }
 }
 
@@ -203,9 +221,13 @@ bool FederateSaves::handle_status(Reader& reader) {
 
 bool FederateSaves::handle_restored(Reader& reader) {
   RestoredMessage message;
-  if (!exchange(reader, message) || activity_ != Activity::restoring) return false;
+  if (!exchange(reader, message) || activity_ != Activity::restoring ||
+      incoming_.size() + message.piece.size() > AmbassadorStateMessage::state_max)
+    return false;
+  incoming_.insert(incoming_.end(), message.piece.begin(), message.piece.end());
+  if (message.is_last == 0) return true;
   uses_.sender.keep_time();
-  if (!read_(message.state)) return false;
+  if (!read_(incoming_)) return false;
   uses_.session.restored({message.federate});
   end();
   was_restored_ = true;

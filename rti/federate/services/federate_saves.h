@@ -62,6 +62,8 @@ class FederateSaves {
   enum class Step : std::uint8_t { none, asked, begun, answered };
   [[noreturn]] void refuse_busy() const;
   void require_not(Activity activity) const;
+  /// Sends a window of pieces, and that it is complete with the last.
+  void send_state();
   void say(SaveWord word, std::string_view label = {}, double time = 0.0);
   /// True, and noted, if this answers a save or restore that has ended, of which the federate may
   /// not have been told yet.
@@ -80,6 +82,8 @@ class FederateSaves {
   Step ended_step_ = Step::none;     ///< how far it was when it ended
   std::uint32_t number_ = 0;         ///< of the save or restore under way
   bool was_restored_ = false;
+  std::vector<std::byte> outgoing_, incoming_;  ///< state that is sent, or that comes
+  std::size_t sent_ = 0;                        ///< of the former
 };
 
 }  // namespace rink::rti

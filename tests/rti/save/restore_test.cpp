@@ -147,7 +147,7 @@ TEST_F(Restore, IsRefusedByNameOfWhatIsNoSaveOfThisFederation) {
   damaged([](SavedFederation& saved) { saved.federates[0].handle = {1}; });
   damaged([](SavedFederation& saved) { saved.federates[0].name = "somebody"; });
   damaged([](SavedFederation& saved) {
-    saved.federates[0].ambassador.resize(RestoredMessage::size_max + 1);
+    saved.federates[0].ambassador.resize(AmbassadorStateMessage::state_max + 1);
   });
   std::vector<std::byte>& bytes = fleet.store->saves["noon"];
   bytes = whole;
@@ -242,6 +242,46 @@ TEST_F(Restore, TellsHowFarEachFederateIs) {
   fleet.tick();
   EXPECT_EQ(pilot->heard.restore_status.size(), 2u);
   EXPECT_EQ(pilot->heard.restore_status[0].status, RestoreStatus::none);
+}
+
+TEST_F(Restore, OfMuchIsSentAsTheConnectionsTakeIt) {
+  constexpr int count = 8'000;
+  const auto name_of = [](int i) { return std::string(200, 'n') + std::to_string(i); };
+  for (int i = 0; i < count; ++i) {
+    pilot->ambassador->register_object_instance(vessel, name_of(i));
+    if (i % 500 == 0) fleet.tick(1);
+  }
+  fleet.tick(20);
+  fleet.most_at_once = 0;
+  pilot->ambassador->request_federation_save("noon");
+  fleet.tick(100);
+  ASSERT_EQ(pilot->heard.told, save_of_noon);
+  SavedFederation saved;
+  ASSERT_EQ(decode(fleet.store->saves.at("noon"), saved), "");
+  for (const SavedFederate& each : saved.federates)
+    EXPECT_GT(each.ambassador.size(), 1u << 20) << each.name;
+  EXPECT_LT(fleet.most_at_once, 600u << 10);
+  fleet.begin();
+  crew();
+  fleet.most_at_once = 0;
+  pilot->ambassador->request_federation_restore("noon");
+  fleet.tick(100);
+  EXPECT_EQ(pilot->heard.told, restored_as("pilot", true));
+  EXPECT_LT(fleet.most_at_once, 600u << 10);
+  for (const int i : {0, count / 2, count - 1})
+    EXPECT_TRUE(coast->ambassador->get_object_instance_handle(name_of(i)));
+  expect_as_saved();
+  // A federate that goes while the states are handed out ends the restore.
+  fleet.begin();
+  crew();
+  pilot->ambassador->request_federation_restore("noon");
+  fleet.tick(3);
+  fleet.lose(1);
+  fleet.tick();
+  EXPECT_EQ(pilot->heard.told.back(),
+            "not restored: federate resigned during restore; federate 'coast' left");
+  pilot->ambassador->publish_object_class_attributes(vessel, motion);
+  EXPECT_TRUE(pilot->ambassador->register_object_instance(vessel, "Pequod"));
 }
 
 TEST_F(Restore, OfARestoredFederationIsSavedByTheSameBytes) {

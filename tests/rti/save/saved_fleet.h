@@ -117,8 +117,9 @@ class SavedFleet : private Outlet {
   };
   std::shared_ptr<MemoryStore> store = std::make_shared<MemoryStore>();
   std::deque<Member> members;
-  std::string record;           ///< of the conversation, for the second reader
-  FederationSettings settings;  ///< of the federation that begins next
+  std::string record;            ///< of the conversation, for the second reader
+  FederationSettings settings;   ///< of the federation that begins next
+  std::size_t most_at_once = 0;  ///< bytes to or from one federate in one round
 
   SavedFleet() { begin(); }
   /// The RTI begins anew, as another process, and knows the saves alone; so do the federates, who
@@ -161,6 +162,7 @@ class SavedFleet : private Outlet {
     for (ConnectionId id = 0; id < members.size(); ++id) {
       if (!members[id].dropped.empty()) continue;
       note('u', id, members[id].ambassador->outgoing());
+      most_at_once = std::max(most_at_once, members[id].ambassador->outgoing().size());
       execution_->receive(id, members[id].ambassador->outgoing());
       members[id].ambassador->clear_outgoing();
     }
@@ -181,7 +183,9 @@ class SavedFleet : private Outlet {
     record += text_of(values_of(id, static_cast<std::uint32_t>(bytes.size()))) + text_of(bytes);
   }
   void send(ConnectionId id, std::span<const Bytes> parts) override {
+    std::size_t size = 0;
     for (const Bytes part : parts) {
+      most_at_once = std::max(most_at_once, size += part.size());
       note('d', id, part);
       EXPECT_TRUE(members[id].ambassador->receive(part));
     }

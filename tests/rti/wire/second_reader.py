@@ -546,7 +546,7 @@ UP = {
 ADVANCES = ("time_advance_request", "time_advance_request_available", "next_message_request", "next_message_request_available", "flush_queue_request")
 SAVE_WORDS = ("request", "request_at_time", "begun", "complete", "not_complete", "abort", "query", "request_restore", "restore_complete", "restore_not_complete",
               "abort_restore", "query_restore")
-SAVE_NOTICES = ("initiate", "initiate_at_time", "saved", "not_saved", "restore_confirmed", "restore_refused", "restore_begun", "initiate_restore", "not_restored")
+SAVE_NOTICES = ("initiate", "initiate_at_time", "saved", "not_saved", "restore_confirmed", "restore_refused", "restore_begun", "initiate_restore", "not_restored", "go_on")
 OWNERSHIP_REQUESTS = ("divest", "offer", "confirm", "deny_release", "give_if_wanted", "withdraw_offer", "acquire", "acquire_if_available", "cancel_acquisition")
 OWNERSHIP_NOTICES = ("assumption_requested", "confirmation_requested", "acquired", "unavailable", "release_requested", "acquisition_cancelled", "divested", "kept", "kept_offered")
 DOWN = {
@@ -578,7 +578,7 @@ DOWN = {
     79: Reader.federate_report,
     80: lambda r: ["report ends"],
     81: Reader.save_notice,
-    123: lambda r: ["restored %d %d" % (r.u32(), len(r.take(r.varint())))],
+    123: lambda r: ["restored %d %d %d" % (r.u32(), r.u8(), len(r.take(r.u16())))],
     124: lambda r: ["save_status %d %s" % (r.u8(), " ".join("%d:%d:%d" % (r.u32(), r.u32(), r.u8()) for _ in range(r.u16())))],
     82: lambda r: ["time_regulation_enabled %s %s" % (r.f64(), r.f64())],
     83: lambda r: ["time_constrained_enabled " + r.f64()],
