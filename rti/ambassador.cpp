@@ -12,8 +12,9 @@ Ambassador::Ambassador(const Fom& fom, FederateAmbassador& callbacks, const Time
                        CallbackModel model)
     : parts_(std::make_unique<AmbassadorParts>(fom, callbacks, timeouts, model)) {
   AmbassadorParts& parts = *parts_;
-  parts.saves.keep_by([&parts](std::vector<std::byte>& state) { write_state(parts, state); },
-                      [&parts](Bytes state) { return read_state(parts, state); });
+  parts.saves.keep_by(
+      [&parts](std::vector<std::byte>& state) { write_state(parts, state); },
+      [&parts](Bytes state, std::uint32_t block) { return read_state(parts, state, block); });
 }
 Ambassador::~Ambassador() = default;
 

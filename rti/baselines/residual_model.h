@@ -53,6 +53,12 @@ class ResidualModel {
   /// These and the attributes whose values they need.
   AttributeSet kept(std::uint16_t object_class) const { return classes_[object_class].kept; }
 
+  /// True if `former` can be of an object of the class.
+  bool is_sound(std::uint16_t object_class, const FormerValues& former) const {
+    const Class& of = classes_[object_class];
+    return former.held.is_empty() ||
+           (of.kept.includes(former.held) && former.bytes.size() == of.size);
+  }
   /// Notes the values of `set`, as in memory.
   void keep(std::uint16_t object_class, AttributeSet set, Bytes values, FormerValues& former) const;
   /// Appends the values of `set`, as in memory; false if some of them are not held.

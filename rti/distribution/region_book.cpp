@@ -240,6 +240,30 @@ void RegionBook::release(std::uint32_t number) {
   free_.push_back(number);
 }
 
+bool RegionBook::is_sound() const {
+  const auto exists = [&](std::uint32_t number) {
+    return number < entries_.size() && entries_[number].exists;
+  };
+  std::vector<bool> is_free(entries_.size());
+  for (const std::uint32_t number : free_) {
+    if (number >= entries_.size() || entries_[number].exists || is_free[number]) return false;
+    is_free[number] = true;
+  }
+  std::size_t templates = 0;
+  for (const Entry& each : entries_) templates += each.exists && !each.is_planar ? 1 : 0;
+  bool is_sound = entries_.size() <= region_max && templates == templates_.size();
+  for (const auto& [number, all] : templates_) {
+    is_sound &= exists(number) && !entries_[number].is_planar &&
+                all.ranges.size() == all.dimensions.count();
+    all.dimensions.for_each(
+        [&](DimensionHandle each) { is_sound &= each.value < fom_.dimensions().size(); });
+  }
+  whole_.for_each([&](ObjectHandle, std::uint32_t number) { is_sound &= exists(number); });
+  for (const auto& [object, associations] : partial_)
+    for (const Association& each : associations) is_sound &= exists(each.region);
+  return is_sound;
+}
+
 std::size_t RegionBook::memory_bytes() const {
   constexpr std::size_t node_size = 16;  // about what a map adds to each element
   return entries_.capacity() * sizeof entries_[0] + free_.capacity() * sizeof free_[0] +

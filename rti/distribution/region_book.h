@@ -91,7 +91,8 @@ class RegionBook {
   std::size_t memory_bytes() const;
   template <class Stream>
   bool keep(Stream& stream) {
-    return keep_all(stream, mark_, entries_, free_, templates_, subscriptions_, whole_, partial_);
+    return keep_all(stream, mark_, entries_, free_, templates_, subscriptions_, whole_, partial_) &&
+           (!Stream::is_reading || is_sound());
   }
 
  private:
@@ -121,6 +122,8 @@ class RegionBook {
       return keep_all(stream, region, attributes);
     }
   };
+  /// True if all numbers are those of regions that exist, and free ones of those that do not.
+  bool is_sound() const;
   static std::string name(RegionHandle region);
   std::size_t rank(const Template& all, RegionHandle region, DimensionHandle dimension) const;
   void release(std::uint32_t number);

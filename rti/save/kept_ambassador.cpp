@@ -34,13 +34,14 @@ void write_state(AmbassadorParts& parts, std::vector<std::byte>& bytes) {
   keep_all(writer, beside);
 }
 
-bool read_state(AmbassadorParts& parts, Bytes bytes) {
+bool read_state(AmbassadorParts& parts, Bytes bytes, std::uint32_t block) {
   Reader reader(bytes);
   parts.sparing.forget_all();
   parts.keyframes.forget_all();
   std::vector<std::byte> beside;
   return keep_books(reader, parts) && keep_all(reader, beside) && reader.is_at_end() &&
-         are_classes_known(parts.ground) && parts.ground.gate.callbacks().read_state(beside);
+         parts.ground.objects.block() == block && are_classes_known(parts.ground) &&
+         parts.ground.gate.callbacks().read_state(beside);
 }
 
 }  // namespace rink::rti

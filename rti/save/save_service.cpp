@@ -413,7 +413,7 @@ void SaveService::hand_out(Outlet& outlet) {
     for (; done < last_piece(saved.ambassador) && waiting < AmbassadorStateMessage::window;
          done += size, waiting += size) {
       const Bytes piece = Bytes(saved.ambassador).subspan(done, size);
-      tell(slot, RestoredMessage{saved.handle.value, 0, piece});
+      tell(slot, RestoredMessage{saved.handle.value, 0, 0, piece});
     }
     is_restored_ &= done >= last_piece(saved.ambassador);
   });
@@ -422,7 +422,8 @@ void SaveService::hand_out(Outlet& outlet) {
 void SaveService::announce_restored(const SavedFederation& saved) {
   for (const SavedFederate& each : saved.federates) {
     const Bytes state = each.ambassador;
-    RestoredMessage message{each.handle.value, 1, state.subspan(last_piece(state))};
+    RestoredMessage message{each.handle.value, 1, basis_.federates[each.slot].block,
+                            state.subspan(last_piece(state))};
     write(part(each.slot).mail, message);
   }
 }

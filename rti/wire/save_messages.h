@@ -106,17 +106,20 @@ bool exchange(Stream& stream, SaveNoticeMessage& message) {
   }
 }
 
-/// A piece of what the federate's ambassador knew, and its handle. With the last the federation is
+/// A piece of what the federate's ambassador knew, and its handle; the last has its block of object
+/// handles, since the state may be another federate's word. With the last the federation is
 /// restored; those before are sent as far as the connection takes them.
 struct RestoredMessage {
   static constexpr MessageKind kind = MessageKind::restored;
   std::uint32_t federate = FederateHandle::none;
   std::uint8_t is_last = 0;
+  std::uint32_t block = 0;
   Bytes piece;
 };
 template <class Stream>
 bool exchange(Stream& stream, RestoredMessage& message) {
   return stream.number(message.federate) && stream.range(message.is_last, 1) &&
+         (message.is_last == 0 || stream.number(message.block)) &&
          stream.template bytes<std::uint16_t>(message.piece, AmbassadorStateMessage::size_max);
 }
 

@@ -97,4 +97,12 @@ std::size_t ObjectBook::memory_bytes() const {
          gone_.capacity() * sizeof gone_[0] + former_blocks_.capacity() * sizeof former_blocks_[0];
 }
 
+bool ObjectBook::is_sound() const {
+  bool is_sound = block_ < object_block_max && registered_count_ <= object_block &&
+                  own_.size() == registered_count_ &&
+                  (!further_block_ || *further_block_ < object_block_max);
+  others_.for_each([&](ObjectHandle each, const KnownObject&) { is_sound &= !is_ours(each); });
+  return is_sound;
+}
+
 }  // namespace rink::rti

@@ -80,10 +80,14 @@ class ObjectBook {
   template <class Stream>
   bool keep(Stream& stream) {
     return keep_all(stream, block_, registered_count_, further_block_, former_blocks_, own_,
-                    others_, gone_);
+                    others_, gone_) &&
+           (!Stream::is_reading || is_sound());
   }
+  std::uint32_t block() const { return block_; }
 
  private:
+  /// True if handles are within their blocks, and those of the present one apart from others.
+  bool is_sound() const;
   ObjectHandle handle(std::uint32_t number) const { return {block_ * object_block + number}; }
   bool is_in_former_block(ObjectHandle object) const;
   KnownObject& place_of(ObjectHandle object);

@@ -74,4 +74,15 @@ std::size_t ResidualReader::memory_bytes() const {
   return size;
 }
 
+bool ResidualReader::is_sound() const {
+  bool is_sound = true;
+  former_.for_each([&](ObjectHandle object, const FormerValues& former) {
+    const KnownObject* const known = objects_.find(object);
+    is_sound &= former.held.is_empty() ||
+                (known != nullptr && known->object_class < basis_.fom.object_classes().size() &&
+                 model_.is_sound(known->object_class, former));
+  });
+  return is_sound;
+}
+
 }  // namespace rink::rti

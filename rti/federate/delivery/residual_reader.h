@@ -39,10 +39,12 @@ class ResidualReader {
   std::size_t memory_bytes() const;
   template <class Stream>
   bool keep(Stream& stream) {
-    return keep_all(stream, former_);
+    return keep_all(stream, former_) && (!Stream::is_reading || is_sound());
   }
 
  private:
+  /// True if all values are of known objects and of their classes.
+  bool is_sound() const;
   struct Block {
     std::uint16_t object_class;
     const Stamp& stamp;

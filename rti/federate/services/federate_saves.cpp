@@ -227,7 +227,7 @@ bool FederateSaves::handle_restored(Reader& reader) {
   incoming_.insert(incoming_.end(), message.piece.begin(), message.piece.end());
   if (message.is_last == 0) return true;
   uses_.sender.keep_time();
-  if (!read_(incoming_)) return false;
+  if (!read_(incoming_, message.block)) return false;
   uses_.session.restored({message.federate});
   end();
   was_restored_ = true;

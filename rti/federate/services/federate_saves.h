@@ -28,7 +28,7 @@ class FederateSaves {
   };
   using Write = std::function<void(std::vector<std::byte>& state)>;
   /// False if the state is damaged.
-  using Read = std::function<bool(Bytes state)>;
+  using Read = std::function<bool(Bytes state, std::uint32_t block)>;
   FederateSaves(const AmbassadorBasis& basis, const Uses& uses) : basis_(basis), uses_(uses) {}
   /// Call it once, before the federate joins.
   void keep_by(Write write, Read read) {

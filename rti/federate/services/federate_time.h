@@ -62,10 +62,13 @@ class FederateTime {
   std::size_t memory_bytes() const { return content_.capacity(); }
   template <class Stream>
   bool keep(Stream& stream) {
-    return keep_all(stream, clock_, order_changes_, interaction_orders_, deletions_);
+    return keep_all(stream, clock_, order_changes_, interaction_orders_, deletions_) &&
+           (!Stream::is_reading || is_sound());
   }
 
  private:
+  /// True if orders and deletions are of classes of the model.
+  bool is_sound() const;
   const KnownObject& require_known(ObjectHandle object) const;
   void require_class(InteractionClassHandle interaction_class) const;
   AttributeSet timestamped(ObjectHandle object, ObjectClassHandle object_class) const;

@@ -156,4 +156,14 @@ void FederateTime::change_order(InteractionClassHandle interaction_class, Order 
   interaction_orders_[interaction_class.value] = order;
 }
 
+bool FederateTime::is_sound() const {
+  const std::size_t orders = interaction_orders_.size();
+  return (orders == 0 || orders == basis_.fom.interaction_classes().size()) &&
+         std::ranges::all_of(interaction_orders_,
+                             [](Order each) { return each <= Order::timestamp; }) &&
+         std::ranges::all_of(deletions_, [&](const TimedDeletion& each) {
+           return each.known.object_class < basis_.fom.object_classes().size();
+         });
+}
+
 }  // namespace rink::rti

@@ -135,8 +135,8 @@ TEST(Message, OfSavesReadsBackAsItWasWrittenAndNeverFromLess) {
       expect_round_trip(
           SaveNoticeMessage{word, number, dice.text(), 4, 1.5 * word, dice.text(), number});
     expect_round_trip(AmbassadorStateMessage{dice.some(number % 300)});
-    expect_round_trip(
-        RestoredMessage{number, static_cast<std::uint8_t>(number % 2), dice.some(number % 300)});
+    expect_round_trip(RestoredMessage{number, 0, 0, dice.some(number % 300)});
+    expect_round_trip(RestoredMessage{number, 1, number, dice.some(number % 300)});
     const auto count = static_cast<std::uint16_t>(number % 5);
     expect_round_trip(SaveStatusMessage{static_cast<std::uint8_t>(number % 2), count,
                                         dice.some(count * SaveStatusMessage::record_size)});

@@ -441,6 +441,11 @@ class Reader:
         time = " " + self.f64() if word == "request_at_time" else ""
         return ["save %s%s%s %d" % (word, label, time, self.varint())]
 
+    def restored(self):
+        federate, is_last = self.u32(), self.u8()
+        block = self.u32() if is_last else 0
+        return ["restored %d %d %d %d" % (federate, is_last, block, len(self.take(self.u16())))]
+
     def save_notice(self):
         notice = SAVE_NOTICES[self.u8()]
         line = "save_notice %s %d %s" % (notice, self.varint(), self.text())
@@ -578,7 +583,7 @@ DOWN = {
     79: Reader.federate_report,
     80: lambda r: ["report ends"],
     81: Reader.save_notice,
-    123: lambda r: ["restored %d %d %d" % (r.u32(), r.u8(), len(r.take(r.u16())))],
+    123: lambda r: [r.restored()],
     124: lambda r: ["save_status %d %s" % (r.u8(), " ".join("%d:%d:%d" % (r.u32(), r.u32(), r.u8()) for _ in range(r.u16())))],
     82: lambda r: ["time_regulation_enabled %s %s" % (r.f64(), r.f64())],
     83: lambda r: ["time_constrained_enabled " + r.f64()],
