@@ -24,18 +24,6 @@ SaveService::Part& SaveService::part(std::uint32_t slot) {
   return parts_[slot];
 }
 
-template <class Visit>
-void SaveService::for_each_joined(Visit visit) const {
-  for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
-    if (basis_.federates[slot].is_joined) visit(slot);
-}
-
-template <class Message>
-void SaveService::tell(std::uint32_t slot, Message message) {
-  if (uses_.phase != SavePhase::idle) write(part(slot).mail, message);
-  else basis_.federates[slot].outbox.after_updates(message);
-}
-
 void SaveService::tell_all(const SaveNoticeMessage& notice) {
   for_each_joined([&](std::uint32_t slot) { tell(slot, notice); });
 }
@@ -164,36 +152,6 @@ void SaveService::left(std::uint32_t slot) {
   if (uses_.phase == SavePhase::restoring) fail_restore(RestoreFailure::federate_resigned, why);
 }
 
-/// Once for each flush, since the answer is longer than the question.
-void SaveService::answer_queries() {
-  for_each_joined([&](std::uint32_t slot) {
-    if (std::exchange(part(slot).asks_for_save, false)) answer_query(slot, false);
-    if (std::exchange(part(slot).asks_for_restore, false)) answer_query(slot, true);
-  });
-}
-
-void SaveService::answer_query(std::uint32_t slot, bool is_restore) {
-  std::vector<std::byte> records;
-  Writer writer(records);
-  SaveStatusMessage answer{is_restore, 0, {}};
-  for_each_joined([&](std::uint32_t each) {
-    const std::uint32_t handle = basis_.federates[each].handle.value;
-    SaveStatusRecord record{handle, handle, static_cast<std::uint8_t>(part(each).save)};
-    if (is_restore) {
-      RestoreStatus status = part(each).restore;
-      if (restore_ && restore_->slot == each) status = RestoreStatus::request_pending;
-      record.status = static_cast<std::uint8_t>(status);
-      if (uses_.phase == SavePhase::restoring)
-        for (const SavedFederate& saved : saved_.federates)
-          if (saved.slot == mapping_[each]) record.after = saved.handle.value;
-    }
-    exchange(writer, record);
-    ++answer.count;
-  });
-  answer.records = records;
-  tell(slot, answer);
-}
-
 /// A save at a time waits until every constrained federate has been granted that time.
 bool SaveService::is_save_due() const {
   if (!save_) return false;
@@ -292,36 +250,6 @@ void SaveService::fail_if_late() {
   if (why.empty()) return;
   if (uses_.phase == SavePhase::saving) fail_save(SaveFailure::rti_detected_failure, why);
   else fail_restore(RestoreFailure::rti_detected_failure, why);
-}
-
-/// Every saved federate needs a present one of its type, of its name if there is one of that.
-std::string SaveService::match_federates() {
-  if (saved_.federation != basis_.settings.federation)
-    return "it is of federation '" + saved_.federation + "'";
-  if (saved_.fom_hash != basis_.fom.hash()) return "it is of another object model";
-  std::vector<const SavedFederate*> left;
-  left.reserve(saved_.federates.size());
-  for (const SavedFederate& each : saved_.federates) left.push_back(&each);
-  mapping_.assign(basis_.federates.size(), no_federate);
-  std::string why;
-  for (const bool is_by_name : {true, false})
-    for_each_joined([&](std::uint32_t slot) {
-      if (mapping_[slot] != no_federate) return;
-      const JoinedFederate& federate = basis_.federates[slot];
-      const auto found = std::ranges::find_if(left, [&](const SavedFederate* each) {
-        return each->type == federate.type && (!is_by_name || each->name == federate.name);
-      });
-      if (found != left.end()) {
-        mapping_[slot] = (*found)->slot;
-        left.erase(found);
-      } else if (!is_by_name && why.empty()) {
-        why = "it has no federate of type '" + federate.type + "' for '" + federate.name + "'";
-      }
-    });
-  if (why.empty() && !left.empty())
-    why = "a federate of type '" + left.front()->type + "' is missing, as was '" +
-          left.front()->name + "'";
-  return why;
 }
 
 bool SaveService::takes_flush() {

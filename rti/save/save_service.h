@@ -125,4 +125,16 @@ class SaveService {
   GatheredFrame frame_;
 };
 
+template <class Visit>
+void SaveService::for_each_joined(Visit visit) const {
+  for (std::uint32_t slot = 0; slot < basis_.federates.size(); ++slot)
+    if (basis_.federates[slot].is_joined) visit(slot);
+}
+
+template <class Message>
+void SaveService::tell(std::uint32_t slot, Message message) {
+  if (uses_.phase != SavePhase::idle) write(part(slot).mail, message);
+  else basis_.federates[slot].outbox.after_updates(message);
+}
+
 }  // namespace rink::rti

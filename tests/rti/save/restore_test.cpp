@@ -301,56 +301,6 @@ TEST_F(Restore, OfARestoredFederationIsSavedByTheSameBytes) {
     EXPECT_EQ(before.federates[i].ambassador, after.federates[i].ambassador) << i;
 }
 
-/// What a federate may do by all its books, as far as it gets.
-void use(Ambassador& rti) {
-  const auto attempt = [](const auto& service) {
-    try {
-      service();
-    } catch (const RtiException&) {
-      return;  // what it knows may be wrong, not what it does with it
-    }
-  };
-  RegionHandle region;
-  attempt([&] { region = rti.create_region(); });
-  attempt([&] { rti.set_region(region, {0.0f, 0.0f, 1.0f, 1.0f}); });
-  attempt([&] { rti.subscribe_object_class_attributes(vessel, motion); });
-  attempt([&] { rti.register_object_instance(vessel); });
-  attempt([&] { rti.change_interaction_order_type(hail, Order::timestamp); });
-  attempt([&] { rti.publish_interaction_class(hail); });
-  attempt([&] { rti.send_interaction(hail, varying("ahoy"), {1.0, 1}); });
-  attempt([&] { rti.resign(); });
-}
-
-TEST_F(Restore, OfADamagedAmbassadorIsRefusedOrDoesNoHarm) {
-  const RegionHandle first = pilot->ambassador->create_region();
-  pilot->ambassador->create_region();
-  pilot->ambassador->delete_region(first);
-  pilot->ambassador->publish_interaction_class(hail);
-  pilot->ambassador->change_interaction_order_type(hail, Order::timestamp);
-  pilot->ambassador->request_federation_save("noon");
-  ASSERT_EQ(fleet.told(*pilot), save_of_noon);
-  const std::vector<std::byte> whole = fleet.store->saves.at("noon");
-  SavedFederation saved;
-  ASSERT_EQ(decode(whole, saved), "");
-  std::vector<std::byte>& state = saved.federates[0].ambassador;
-  int refused = 0;
-  fleet.has_damaged_states = true;
-  for (std::size_t at = 0; at < state.size(); ++at)
-    for (const std::byte flip : {std::byte{1}, std::byte{2}, std::byte{0x80}}) {
-      state[at] ^= flip;
-      fleet.store->saves["noon"] = encoded(saved);
-      fleet.begin();
-      crew();
-      pilot->ambassador->request_federation_restore("noon");
-      fleet.tick();
-      refused += pilot->dropped.empty() ? 0 : 1;
-      if (pilot->dropped.empty()) use(*pilot->ambassador);
-      fleet.tick(1);
-      state[at] ^= flip;
-    }
-  EXPECT_GT(refused, 0);
-}
-
 TEST_F(Restore, OfAnAmbassadorWithAnothersBlockOfHandlesIsRefused) {
   SavedFederation saved;
   ASSERT_EQ(decode(fleet.store->saves.at("noon"), saved), "");
