@@ -136,11 +136,15 @@ bool SaveService::forbids(std::uint32_t slot, MessageKind kind) const {
                             parts_[slot].save == SaveStatus::waiting ||
                             parts_[slot].restore == RestoreStatus::waiting;
   if (!has_answered) return false;
-  constexpr MessageKind allowed[] = {
-      MessageKind::heartbeat,        MessageKind::resign,
-      MessageKind::query_management, MessageKind::notify_host,
-      MessageKind::save_request,     MessageKind::ambassador_state,
-      MessageKind::refuse_keyframe,  MessageKind::acknowledge_keyframe};
+  constexpr MessageKind allowed[] = {MessageKind::heartbeat,
+                                     MessageKind::resign_directive,
+                                     MessageKind::resign,
+                                     MessageKind::query_management,
+                                     MessageKind::notify_host,
+                                     MessageKind::save_request,
+                                     MessageKind::ambassador_state,
+                                     MessageKind::refuse_keyframe,
+                                     MessageKind::acknowledge_keyframe};
   return std::ranges::find(allowed, kind) == std::end(allowed);
 }
 

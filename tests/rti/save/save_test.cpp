@@ -231,6 +231,53 @@ TEST(Save, LimitsWhatAFederateSendsBeforeItHearsOfItByFlushAndNotInAll) {
   EXPECT_NE(pilot.dropped, "") << "who never hears of it does not fill the RTI";
 }
 
+/// A vessel of coast's is known to pilot; slow holds up whatever is asked of all.
+class ResigningMeanwhile : public ::testing::Test {
+ protected:
+  using Answer = Keeper::Answer;
+  SavedFleet fleet;
+  SavedFleet::Member &pilot = fleet.join("pilot"), &coast = fleet.join("coast"),
+                     &slow = fleet.join("slow");
+  ObjectHandle ship;
+
+  void SetUp() override {
+    pilot.ambassador->watch_federates();
+    pilot.ambassador->subscribe_object_class_attributes(vessel, motion);
+    coast.ambassador->publish_object_class_attributes(vessel, motion);
+    ship = coast.ambassador->register_object_instance(vessel);
+    fleet.tick();
+    pilot.ambassador->request_federation_save("noon");
+    ASSERT_EQ(fleet.told(pilot), (ToldWords{"save noon", "saved"}));
+    slow.heard.save_answer = slow.heard.restore_answer = Answer::nothing;
+  }
+  void expect_ship_left_behind() {
+    coast.ambassador->resign(ResignAction::unconditionally_divest_attributes);
+    fleet.tick();
+    EXPECT_EQ(pilot.heard.log.back(), std::string("coast ") + to_string(ResignReason::resigned));
+    EXPECT_TRUE(pilot.heard.objects.contains(ship.value));
+    for (const std::uint64_t drops : fleet.execution().counters().drops) EXPECT_EQ(drops, 0u);
+  }
+};
+
+TEST_F(ResigningMeanwhile, FollowsTheActionOfWhoHasBegunItsSave) {
+  coast.heard.save_answer = Answer::begun_only;
+  pilot.ambassador->request_federation_save("later");
+  fleet.tick();
+  expect_ship_left_behind();
+}
+
+TEST_F(ResigningMeanwhile, FollowsTheActionOfWhoHasCompletedItsSave) {
+  pilot.ambassador->request_federation_save("later");
+  fleet.tick();
+  expect_ship_left_behind();
+}
+
+TEST_F(ResigningMeanwhile, FollowsTheActionOfWhoHasRestoredItself) {
+  pilot.ambassador->request_federation_restore("noon");
+  fleet.tick();
+  expect_ship_left_behind();
+}
+
 TEST(Save, AtATimeWaitsForEveryConstrainedFederate) {
   SavedFleet fleet;
   auto &pilot = fleet.join("pilot"), &coast = fleet.join("coast");
