@@ -154,7 +154,7 @@ inline constexpr MessageFields message_fields[] = {
     {MessageKind::save_notice,
      "save_notice",
      {"notice", "number", "label", "time", "failure", "why", "name", "federate"}},
-    {MessageKind::restored, "restored", {"federate", "size", "state"}},
+    {MessageKind::restored, "restored", {"federate", "last", "block", "state"}},
     {MessageKind::save_status, "save_status", {"of", "federates"}},
     {MessageKind::hello, "hello", {"version", "nonce", "federation"}},
     {MessageKind::challenge, "challenge", {"nonce"}},

@@ -80,8 +80,7 @@ bool KeptDistribution::apply(const Fom& fom, const ObjectTable& objects, Interes
         !interest.has_region(each.maker, each.region))
       return false;
     const AttributeSet all = fom.attributes(ObjectClassHandle{objects[each.object].object_class});
-    if (each.attributes == all) interest.associate(each.maker, each.object, each.region);
-    else interest.associate(each.maker, each.object, each.region, each.attributes & all);
+    interest.associate(each.maker, each.object, each.region, each.attributes & all);
   }
   return true;
 }

@@ -85,6 +85,7 @@ class Keeper final : public Recorder {
     restore_status.assign(all.begin(), all.end());
   }
   void time_advance_grant(LogicalTime time) override { granted = time.value; }
+  void time_bounds(double bound, double) override { galt = bound; }
   void reflect_attribute_values_with_time(ObjectHandle object, AttributeSet attributes,
                                           Bytes values, const TimedStamp& timed) override {
     told.push_back("at " + std::to_string(timed.stamp.time));
@@ -95,6 +96,7 @@ class Keeper final : public Recorder {
   std::vector<FederateRestoreStatus> restore_status;
   FederateHandle restored_handle;
   double granted = 0.0;
+  std::optional<double> galt;
 
  private:
   void save(std::string_view label) {
@@ -121,6 +123,7 @@ class SavedFleet : private Outlet {
   FederationSettings settings;      ///< of the federation that begins next
   bool has_damaged_states = false;  ///< in its saves: who is sent one may refuse it
   std::size_t most_at_once = 0;     ///< bytes to or from one federate in one round
+  const Fom* model = &harbour();
 
   SavedFleet() { begin(); }
   /// The RTI begins anew, as another process, and knows the saves alone; so do the federates, who
@@ -134,14 +137,14 @@ class SavedFleet : private Outlet {
     settings.filter = "region";
     FederationServices services;
     if (has_store) services.save_store = store;
-    execution_ = std::make_unique<FederationExecution>(harbour(), settings, services);
+    execution_ = std::make_unique<FederationExecution>(*model, settings, services);
   }
   FederationExecution& execution() { return *execution_; }
 
   Member& join(const std::string& name, const std::string& type = "sailor",
-               CallbackModel model = CallbackModel::immediate) {
+               CallbackModel callbacks = CallbackModel::immediate) {
     Member& member = members.emplace_back();
-    member.ambassador = std::make_unique<Ambassador>(harbour(), member.heard, Timeouts{}, model);
+    member.ambassador = std::make_unique<Ambassador>(*model, member.heard, Timeouts{}, callbacks);
     member.heard.ambassador = member.ambassador.get();
     member.heard.kept = files_[name];
     names_.push_back(name);
