@@ -2,7 +2,7 @@
 # The driver of bench/standard against a hosted RTI: driver_test.sh RTI DRIVER MODEL WORK
 set -eu
 rti=$1 driver=$2 model=$3 work=$4
-mkdir -p "$work"
+mkdir -p "$work" && rm -f "$work"/*  # of an earlier run: its RTI is elsewhere
 "$rti" --fom "$model" --listen 127.0.0.1:0 >"$work/rti" 2>&1 &
 host=$!
 trap 'kill $host 2>/dev/null || true' EXIT
