@@ -62,7 +62,7 @@ void HeldUpdates::remove_subscriber(Subscriber subscriber) {
   held_.remove_subscriber(subscriber);
 }
 
-/// Of those for whom `entity` is relevant.
+/// Takes the subscriber out of the list of those for whom `entity` is relevant.
 void HeldUpdates::forget(Subscriber subscriber, Entity entity) {
   assert(entity < near_.size());
   Buffer<Subscriber>& near = near_[entity];
@@ -112,8 +112,9 @@ void HeldUpdates::move_places() {
   touched_.clear();
 }
 
-/// Holds an update of `entity` back from all for whom it was relevant: whom it enters now is told
-/// in full.
+/// Adds an update of `entity` to what each of its subscribers was not told yet. A subscriber for
+/// whom the entity becomes relevant at this match is not among them, since it is sent the whole
+/// state.
 void HeldUpdates::hold(Entity entity) {
   if (entity >= near_.size()) return;
   for (const Subscriber subscriber : near_[entity].span()) {

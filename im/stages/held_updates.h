@@ -50,8 +50,8 @@ class HeldUpdates : public Parts {
   /// [m]
   static double distance(const Half& from, const Half& to);
 
-  /// Sets `is_due` of what is told at this match, of all pairs of `subscriber` with updates held
-  /// back: there is one.
+  /// Sets `is_due` of each pair that is told at this match. `held` is not empty: all pairs of
+  /// `subscriber` with updates held back.
   virtual void judge(Subscriber subscriber, std::span<Held> held) = 0;
 
   /// Matches since what was told was the newest; 1 at the first update.
@@ -87,7 +87,7 @@ class HeldUpdates : public Parts {
   std::vector<Place> places_;
   std::vector<Region> subscriptions_;
   PairLists<Known> known_;
-  std::vector<Buffer<Subscriber>> near_;  ///< by entity: for whom it is relevant, in any order
+  std::vector<Buffer<Subscriber>> near_;  ///< by entity: its subscribers, in any order
   PairLists<Held> held_;
   Buffer<Entity> touched_;  ///< moved or updated since the last match
   Buffer<Change> due_;

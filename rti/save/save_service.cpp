@@ -287,29 +287,23 @@ void SaveService::finish_save() {
                      "a part of the RTI was replaced by one that cannot be saved");
   const std::string why = uses_.store->write(saved.federation, saved.label, encoded(saved));
   if (!why.empty()) return fail_save(SaveFailure::rti_detected_failure, why);
-  SaveNoticeMessage notice;
-  notice.notice = static_cast<std::uint8_t>(SaveNotice::saved);
-  notice.number = number_;
-  tell_all(notice);
-  end();
+  conclude(SaveNotice::saved, 0, {});
 }
 
 void SaveService::fail_save(SaveFailure failure, std::string_view why) {
-  SaveNoticeMessage notice;
-  notice.notice = static_cast<std::uint8_t>(SaveNotice::not_saved);
-  notice.number = number_;
-  notice.text = why.substr(0, text_max);
-  notice.failure = static_cast<std::uint8_t>(failure);
-  tell_all(notice);
-  end();
+  conclude(SaveNotice::not_saved, static_cast<std::uint8_t>(failure), why);
 }
 
 void SaveService::fail_restore(RestoreFailure failure, std::string_view why) {
+  conclude(SaveNotice::not_restored, static_cast<std::uint8_t>(failure), why);
+}
+
+void SaveService::conclude(SaveNotice word, std::uint8_t failure, std::string_view why) {
   SaveNoticeMessage notice;
-  notice.notice = static_cast<std::uint8_t>(SaveNotice::not_restored);
+  notice.notice = static_cast<std::uint8_t>(word);
   notice.number = number_;
   notice.text = why.substr(0, text_max);
-  notice.failure = static_cast<std::uint8_t>(failure);
+  notice.failure = failure;
   tell_all(notice);
   end();
 }

@@ -99,6 +99,8 @@ class SaveService {
   void finish_save();
   void fail_save(SaveFailure failure, std::string_view why);
   void fail_restore(RestoreFailure failure, std::string_view why);
+  /// Tells all how it ended; `failure` and `why` are of the words that have them.
+  void conclude(SaveNotice word, std::uint8_t failure, std::string_view why);
   void begin(SavePhase phase);
   void end();
   void fail_if_late();

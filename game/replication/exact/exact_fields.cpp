@@ -1,4 +1,4 @@
-// Reads each message with the readers' own function, by a stream that is told where fields begin.
+// Runs the readers' own function over each message; its stream notes where each field begins.
 #include "game/replication/exact/exact_fields.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 
 namespace rink::view {
 
-/// No more than a limit, and few while a menu rests: behind it two bots play, whom nobody watches
-/// who has not touched anything for a while. Knows no clock; real time [s] never falls.
+/// Limits the pictures drawn each second, and draws few behind a menu that nobody has touched for a
+/// while. Knows no clock; real time [s] never falls.
 class FramePace {
  public:
   static constexpr double limit_default = 120.0;  ///< pictures a second
